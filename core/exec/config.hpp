@@ -1,0 +1,41 @@
+// What the compilers need to be told, in one place.
+#pragma once
+#include <cstdint>
+
+#if defined(__CUDACC__)
+#define RIVEN_FN __host__ __device__
+#define RIVEN_INLINE __host__ __device__ __forceinline__
+#define RIVEN_LAMBDA __host__ __device__
+#else
+#define RIVEN_FN
+#define RIVEN_INLINE __attribute__((always_inline)) inline
+#define RIVEN_LAMBDA
+#endif
+
+#define RIVEN_PRAGMA(x) _Pragma(#x)
+
+namespace riven::exec {
+
+/// Particles taken together by one trip through a kernel's body. On the CPU the compiler turns the
+/// trips into vector instructions; a GPU thread takes one particle.
+#if defined(__CUDACC__)
+inline constexpr int lanes = 1;
+#else
+inline constexpr int lanes = 16;
+#endif
+
+/// body(k) for k in [0, count); vectorised when the block is full.
+/// The body must be free of branches that the compiler cannot turn into blends.
+template <class Body>
+RIVEN_INLINE void for_lanes(int count, Body&& body) {
+  if (count == lanes) {
+#if !defined(__CUDACC__)
+#pragma omp simd
+#endif
+    for (int k = 0; k < lanes; ++k) body(k);
+  } else {
+    for (int k = 0; k < count; ++k) body(k);
+  }
+}
+
+}  // namespace riven::exec

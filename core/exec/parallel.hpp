@@ -1,0 +1,71 @@
+// parallel_for and parallel_reduce over a runtime-chosen space, Kokkos-style.
+#pragma once
+#include <algorithm>
+#include <execution>
+#include <vector>
+
+#include "core/exec/config.hpp"
+#include "core/exec/counting.hpp"
+#include "core/exec/space.hpp"
+
+namespace riven::exec {
+
+namespace detail {
+
+template <class F>
+void launch(const Space& space, long n, const F& f) {
+  switch (space.kind()) {
+    case Kind::serial:
+      for (long i = 0; i < n; ++i) f(i);
+      break;
+    case Kind::openmp:
+#pragma omp parallel for schedule(dynamic, 1) num_threads(space.threads())
+      for (long i = 0; i < n; ++i) f(i);
+      break;
+    case Kind::stdpar:
+      // par, not par_unseq: kernels may use atomics
+      std::for_each(std::execution::par, Counting{0}, Counting{n}, f);
+      break;
+  }
+}
+
+}  // namespace detail
+
+/// Items that one task takes when a range of small items is cut into chunks. Fixed, so that sums over
+/// chunks do not depend on the number of threads.
+inline constexpr long chunk = 2048;
+
+/// f(i) for i in [0, n); every item is a task of its own (a tile, a body, a chunk).
+template <class F>
+void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
+  Stopwatch watch(space.timers(), label);
+  detail::launch(space, n, f);
+}
+
+/// f(i) for i in [0, n); items are small (a node, a particle) and are taken in chunks.
+template <class F>
+void parallel_for(const Space& space, const char* label, long n, const F& f) {
+  parallel_tasks(space, label, (n + chunk - 1) / chunk, [&](long c) {
+    const long end = std::min(n, (c + 1) * chunk);
+    for (long i = c * chunk; i < end; ++i) f(i);
+  });
+}
+
+/// Sum of f(i) over i in [0, n), T being default-constructible to zero and having +=.
+/// Chunks are summed in order: the result is the same on any number of threads.
+template <class T, class F>
+T parallel_reduce(const Space& space, const char* label, long n, const F& f) {
+  const long chunks = (n + chunk - 1) / chunk;
+  std::vector<T> part(static_cast<size_t>(chunks));
+  parallel_tasks(space, label, chunks, [&, p = part.data()](long c) {
+    T sum{};
+    const long end = std::min(n, (c + 1) * chunk);
+    for (long i = c * chunk; i < end; ++i) sum += f(i);
+    p[c] = sum;
+  });
+  T total{};
+  for (const T& t : part) total += t;
+  return total;
+}
+
+}  // namespace riven::exec

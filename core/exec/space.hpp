@@ -1,0 +1,37 @@
+// Execution spaces: where a kernel runs. Chosen at run time, one program holds them all.
+#pragma once
+#include <string>
+
+#include "core/exec/timers.hpp"
+
+namespace riven::exec {
+
+enum class Kind { serial, openmp, stdpar };
+
+/// A place to run kernels, with its thread count and the timers that every launch reports to.
+class Space {
+ public:
+  explicit Space(Kind kind = Kind::serial, int threads = 1);
+  ~Space();
+  Space(const Space&) = delete;
+  Space& operator=(const Space&) = delete;
+
+  Kind kind() const { return kind_; }
+  int threads() const { return threads_; }
+  Timers& timers() const { return timers_; }
+
+ private:
+  Kind kind_;
+  int threads_;
+  void* limit_ = nullptr;  ///< keeps TBB's thread limit alive (StdPar)
+  mutable Timers timers_;
+};
+
+/// "serial", "openmp", "stdpar".
+const char* name(Kind kind);
+/// Inverse of name(); false when the name is unknown.
+bool parse(const std::string& text, Kind& kind);
+/// Cores that this process may use.
+int available_threads();
+
+}  // namespace riven::exec

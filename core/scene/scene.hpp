@@ -1,0 +1,205 @@
+// What the user wrote, in SI units, checked for meaning but not yet planned. Plain data: io/ fills it,
+// core/plan turns it into tasks and arrays. No member depends on how it was written down.
+#pragma once
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/exec/space.hpp"
+#include "core/math/vec.hpp"
+
+namespace riven {
+
+/// A quantity over time in SI: value * shape(t). A constant has no shape.
+struct TimeFunction {
+  double value = 0;
+  std::function<double(double)> shape;  ///< dimensionless, of t in s; empty means 1
+  std::string text;                     ///< as written, for `riven plan`
+  double operator()(double t) const { return shape ? value * shape(t) : value; }
+};
+
+enum class ShapeFunction { linear, ugimp, bspline };
+enum class Transfer { flip, pic, xpic, fmpm };  ///< pic: FLIP blended with a fraction of PIC
+enum class StressUpdate { usl, musl, usf, usavg };
+enum class Plane { strain, stress };
+enum class ScatterKind { atomic, ordered };
+enum class LawKind { linear_elastic, neo_hookean };
+enum class CrackMotion { surfaces, center_of_mass };  ///< how the crack plane moves
+enum class SurfaceUpdate { xpic, flip, pic };         ///< how the crack surfaces move
+enum class ContactLaw { ignored, bonded, stick, frictionless, coulomb, interface };
+enum class ContactDetection { volume, velocity, displacement };  ///< displacement: velocity and displacement
+enum class Sidecar { none, vtp };
+
+// ---- shapes of bodies and regions ---------------------------------------------------------------------------
+
+struct Rectangle {
+  Vec2 lower, upper;
+};
+struct Disk {
+  Vec2 center;
+  double radius = 0;
+};
+struct Polygon {
+  std::vector<Vec2> points;  ///< closed by the line from last to first
+};
+using Region = std::variant<Rectangle, Disk, Polygon>;
+
+/// True when the point lies in the region (borders of rectangles and disks included).
+bool contains(const Region& region, Vec2 point);
+/// The smallest rectangle around the region.
+Rectangle bounds(const Region& region);
+
+// ---- parts of a scene ---------------------------------------------------------------------------------------
+
+struct Material {
+  std::string name;
+  LawKind law = LawKind::linear_elastic;
+  double E = 0;        ///< Young's modulus, Pa
+  double nu = 0;       ///< Poisson's ratio
+  double density = 0;  ///< kg/m^3
+};
+
+struct Body {
+  std::string name;
+  int material = 0;            ///< index into Scene::materials
+  Region region;
+  std::vector<Region> holes;
+  int particles_per_cell = 2;  ///< along each axis
+  double thickness = 0;        ///< m; 0 means the scene's
+  Vec2 velocity;               ///< initial, m/s
+  double spin = 0;             ///< initial angular velocity about the body's centre of mass, rad/s
+};
+
+/// A velocity component prescribed on grid nodes inside a box (a line is a box without width).
+struct FixedNodes {
+  std::string name;
+  Rectangle box;
+  std::optional<TimeFunction> velocity[2];  ///< m/s; an empty component is free
+};
+
+/// A symmetry plane: no normal velocity on the grid line, mirror images behind it.
+struct SymmetryPlane {
+  int axis = 0;        ///< 0: the plane x = position, 1: the plane y = position
+  double position = 0; ///< m; on a grid line
+  int solid = +1;      ///< the side on which the body lies: +1 above, -1 below
+};
+
+/// A block of rigid particles that moves with a prescribed velocity and imposes it on every field of
+/// every node that it touches.
+struct Grip {
+  std::string name;
+  Region region;
+  int particles_per_cell = 2;
+  std::optional<TimeFunction> velocity[2];  ///< m/s; an empty component is free
+};
+
+/// A force shared evenly by the particles inside the region, or a traction on the particles along one
+/// edge of a body.
+struct Load {
+  enum class Kind { force, traction };
+  enum class Edge { left, right, bottom, top };
+  std::string name;
+  Kind kind = Kind::force;
+  Region region;             ///< which particles (force; and traction, as the part of the edge that is loaded)
+  Edge edge = Edge::right;   ///< traction only: particles that have no neighbour on this side
+  TimeFunction value[2];     ///< N in all (force), or Pa (traction)
+};
+
+struct ContactSettings {
+  ContactLaw law = ContactLaw::frictionless;
+  double friction = 0;           ///< Coulomb
+  double normal_stiffness = 0;   ///< interface, Pa/m
+  double shear_stiffness = 0;    ///< interface, Pa/m
+};
+
+struct ContactRules {
+  ContactDetection detection = ContactDetection::displacement;
+  double v_sep = 0.9;      ///< volume detection: below this relative volume the faces are apart
+  double v_contact = 1.1;  ///< above it they touch
+};
+
+struct CrackLine {
+  std::string name;
+  std::vector<Vec2> points;
+  double resolution = 0;                   ///< greatest segment length, m; 0 means the particle size
+  std::optional<ContactSettings> contact;  ///< its own law instead of the scene's
+};
+
+/// A named result read from the fields at the end and at each history row.
+struct Probe {
+  enum class Kind { crack_opening, displacement, velocity, stress, reaction, mean_stress };
+  std::string name;
+  Kind kind = Kind::crack_opening;
+  Vec2 point;          ///< nearest particle (at the start) for displacement, velocity, stress
+  int axis = 1;        ///< component
+  int axis2 = 1;       ///< stress: second index
+  std::string target;  ///< crack or grip name
+};
+
+struct Output {
+  int frames = 20;             ///< frames after the first, evenly over the run
+  double history_every = 0;    ///< s; 0 means 1/500 of the run
+  Sidecar sidecar = Sidecar::none;
+  std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
+  double fringe_constant = 0;       ///< 1/Pa (seed 002, eq. 23)
+};
+
+/// Where a run stops because it went wrong.
+struct Limits {
+  double energy_growth = 0.05;  ///< largest (kinetic + strain + sinks - external work) over the largest energy so far
+};
+
+struct Scene {
+  std::string name;         ///< file name without its ending
+  std::string title;
+  std::string source_path;
+  std::string source_text;  ///< the scene as read, with --set applied
+
+  // solver
+  double end_time = 0;      ///< s
+  double cell = 0;          ///< edge of the square cells, m
+  Plane plane = Plane::strain;
+  double thickness = 1e-3;  ///< m
+  ShapeFunction shape = ShapeFunction::ugimp;
+  Transfer transfer = Transfer::flip;
+  int order = 2;            ///< XPIC(k), FMPM(k)
+  double pic_fraction = 0;  ///< transfer = pic
+  StressUpdate stress_update = StressUpdate::usavg;
+  double cfl = 0.4;
+  double dt_max = std::numeric_limits<double>::infinity();
+  bool crack_visibility = false;  ///< negative control: particles do not see nodes across a crack
+  ScatterKind scatter = ScatterKind::atomic;
+  bool deterministic = false;     ///< same bits on any thread count (implies ordered scatter)
+  exec::Kind exec = exec::Kind::openmp;
+  int threads = 0;                ///< 0 means all cores
+
+  // grid
+  Rectangle grid;                 ///< its walls; on multiples of `cell` from the lower corner
+
+  // effects
+  std::vector<Material> materials;
+  std::vector<Body> bodies;
+  std::vector<FixedNodes> fixed;
+  std::vector<SymmetryPlane> symmetry;
+  std::vector<Grip> grips;
+  std::vector<Load> loads;
+  std::optional<TimeFunction> body_force[2];    ///< acceleration, m/s^2
+  std::optional<TimeFunction> grid_damping;     ///< 1/s
+  std::optional<TimeFunction> particle_damping; ///< 1/s
+  std::vector<CrackLine> cracks;
+  ContactSettings contact;
+  ContactRules contact_rules;
+  CrackMotion crack_motion = CrackMotion::surfaces;
+  SurfaceUpdate surface_update = SurfaceUpdate::xpic;
+
+  std::vector<Probe> probes;
+  Output output;
+  Limits limits;
+
+  std::vector<std::string> defaults;  ///< "key = value" of everything that was not said, for the header
+};
+
+}  // namespace riven

@@ -1,0 +1,32 @@
+// Cracks: polylines of massless particles, all cracks flattened into one set of arrays.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/exec/array.hpp"
+#include "core/math/vec.hpp"
+#include "core/scene/scene.hpp"
+
+namespace riven {
+
+/// Crack c owns the points [start[c], start[c+1]); its segments join neighbouring points. Walking from the
+/// first point to the last, "above" is the left-hand side: the signed area (p, a, b) of a particle p above the
+/// segment a-b is positive. The normal points from above to below (seed 002, section 2.2).
+struct Cracks {
+  std::vector<std::string> names;
+  std::vector<ContactSettings> contact;  ///< law of each crack
+  std::vector<int> start{0};             ///< [cracks + 1]
+  exec::Array<int> crack;                ///< [points] which crack a point belongs to
+  exec::Array<Vec2> plane;               ///< [points] crack plane
+  exec::Array<Vec2> upper, lower;        ///< [points] surface positions, above and below
+  exec::Array<Vec2> upper_velocity, lower_velocity;  ///< [points] XPIC(1) only
+  exec::Array<Vec2> plane0;              ///< [points] where the plane was when the point was made
+
+  int count() const { return static_cast<int>(names.size()); }
+  int points() const { return start.back(); }
+};
+
+/// Cuts each line of the scene into segments no longer than its resolution and lays the surfaces on it.
+Cracks make_cracks(const Scene& scene, double default_resolution);
+
+}  // namespace riven

@@ -1,0 +1,49 @@
+// The background grid: a regular Cartesian lattice of nodes, data in slots.
+//
+// Field 0 of node n is slot n. Fields 1..3 of a node that may see a crack follow behind the plain grid:
+//   slot(n, f) = n_nodes + extra[n] + f - 1,   f >= 1,
+// with extra[n] = -1 where no crack can be seen. A node that can see one crack owns one extra slot, a node that
+// can see two or more owns three.
+#pragma once
+#include "core/exec/array.hpp"
+#include "core/math/vec.hpp"
+
+namespace riven {
+
+/// Where the nodes are. Node (i, j) lies at origin + h (i, j), and has number j nx + i. The walls are the
+/// user's box; two or more layers of ghost nodes lie outside of it, up to whole tiles.
+struct Lattice {
+  int nx = 0, ny = 0;          ///< nodes along each axis, ghosts included; multiples of tile
+  double h = 0;                ///< cell edge, m
+  Vec2 origin;                 ///< position of node (0, 0)
+  int wall_lower[2] = {0, 0};  ///< node index of the walls along each axis
+  int wall_upper[2] = {0, 0};
+
+  static constexpr int tile = 8;    ///< edge of a tile in nodes
+  static constexpr int ghosts = 2;  ///< least number of node layers outside the walls
+
+  RIVEN_INLINE int nodes() const { return nx * ny; }
+  RIVEN_INLINE int tiles_x() const { return nx / tile; }
+  RIVEN_INLINE int tiles_y() const { return ny / tile; }
+  RIVEN_INLINE Vec2 position(int node) const { return {origin.x + h * (node % nx), origin.y + h * (node / nx)}; }
+  RIVEN_INLINE Vec2 position(int i, int j) const { return {origin.x + h * i, origin.y + h * j}; }
+};
+
+/// A lattice whose walls are the given box, with ghost layers around it.
+/// Throws Error (bad input) if the box is no whole number of cells or too large to number.
+Lattice make_lattice(Vec2 lower, Vec2 upper, double cell);
+
+/// Node data. After particle-to-grid q holds [px py fx fy], after the grid is advanced [vx vy ax ay].
+template <class Real>
+struct Grid {
+  Lattice lattice;
+  exec::Array<Real> mass;  ///< [slots]
+  exec::Array<Real> q;     ///< [4 slots]
+  exec::Array<Real> again; ///< [2 slots] momentum, then velocity, of the second extrapolation (MUSL, USAVG)
+  exec::Array<Real> high;  ///< [2 slots] higher-order velocity (XPIC, FMPM)
+  exec::Array<Real> term;  ///< [4 slots] two buffers for the terms of the higher-order series
+
+  int slots() const { return static_cast<int>(mass.size()); }
+};
+
+}  // namespace riven
