@@ -1,0 +1,107 @@
+// Shape functions on the regular grid. Each is a product of one-dimensional functions; the number of nodes along
+// an axis is the shape function's own property, and so is the neighbour count that follows from it.
+//
+// X is a particle's position in cells from node 0. `axis` gives the first node it sees, the values s and the
+// gradients g (per cell) of its `width` nodes:
+//   linear    N(r) = 1 - |r|                                          (Sulsky et al. 1994)
+//   uGIMP     the hat function averaged over the particle's domain    (Bardenhagen and Kober 2004, eq. 36)
+//   B-spline  quadratic, node-centred; the ghost node outside a wall is folded onto the two nodes inside by linear
+//             extrapolation, N_0 += 2 N_-1, N_1 -= N_-1, so that sum N_i = 1 and sum N_i x_i = x up to the wall.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "core/exec/config.hpp"
+
+namespace riven {
+
+template <class Real, int Width>
+struct Axis {
+  int base;  ///< number of the first node along this axis
+  Real s[Width];
+  Real g[Width];
+};
+
+/// What the one-dimensional functions need to know about a particle and the grid along one axis.
+template <class Real>
+struct AxisSetting {
+  Real half = Real(0.25);    ///< half of the particle's domain, in cells (uGIMP)
+  Real inv_4half = Real(1);  ///< 1 / (4 half)
+  int wall_lower = 0;        ///< node numbers of the walls (B-spline)
+  int wall_upper = 0;
+};
+
+struct Linear {
+  static constexpr int width = 2;
+  static constexpr const char* name = "linear";
+
+  /// The cell by which particles are sorted: the first node that they see.
+  template <class Real>
+  static RIVEN_INLINE int cell(Real X) {
+    return static_cast<int>(std::floor(X));
+  }
+  template <class Real>
+  static RIVEN_INLINE Axis<Real, 2> axis(Real X, const AxisSetting<Real>&) {
+    const Real f = std::floor(X), r = X - f;
+    return {static_cast<int>(f), {Real(1) - r, r}, {Real(-1), Real(1)}};
+  }
+};
+
+struct UGimp {
+  static constexpr int width = 3;
+  static constexpr const char* name = "ugimp";
+
+  template <class Real>
+  static RIVEN_INLINE int cell(Real X) {
+    return static_cast<int>(std::floor(X + Real(0.5)));
+  }
+  template <class Real>
+  static RIVEN_INLINE Axis<Real, 3> axis(Real X, const AxisSetting<Real>& a) {
+    const Real near = std::floor(X + Real(0.5)), r = X - near, l = a.half;
+    const Real c = std::min(std::max(r, -l), l);
+    const Real below = l - c, above = l + c;
+    const Real s0 = below * below * a.inv_4half + std::max(Real(0), c - r);
+    const Real s2 = above * above * a.inv_4half + std::max(Real(0), r - c);
+    const Real g0 = Real(-2) * below * a.inv_4half, g2 = Real(2) * above * a.inv_4half;
+    return {static_cast<int>(near) - 1, {s0, Real(1) - s0 - s2, s2}, {g0, -g0 - g2, g2}};
+  }
+};
+
+struct BSpline {
+  static constexpr int width = 3;
+  static constexpr const char* name = "bspline";
+
+  template <class Real>
+  static RIVEN_INLINE int cell(Real X) {
+    return static_cast<int>(std::floor(X + Real(0.5)));
+  }
+  template <class Real>
+  static RIVEN_INLINE Axis<Real, 3> axis(Real X, const AxisSetting<Real>& a) {
+    const Real near = std::floor(X + Real(0.5)), r = X - near;
+    const int node = static_cast<int>(near);
+    const Real below = Real(0.5) - r, above = Real(0.5) + r;
+    Real s0 = Real(0.5) * below * below, s2 = Real(0.5) * above * above, s1 = Real(1) - s0 - s2;
+    Real g0 = -below, g2 = above, g1 = -g0 - g2;
+    // at a wall the functions become linear in the outer half cell; a particle that has slipped past the wall
+    // keeps non-negative masses by being taken at the wall
+    const bool low = node <= a.wall_lower, high = node >= a.wall_upper;
+    const Real in = std::min(Real(1), std::max(Real(0), r)), out = std::min(Real(1), std::max(Real(0), -r));
+    s0 = low ? Real(0) : high ? out : s0;
+    s1 = low ? Real(1) - in : high ? Real(1) - out : s1;
+    s2 = low ? in : high ? Real(0) : s2;
+    g0 = low ? Real(0) : high ? Real(-1) : g0;
+    g1 = low ? Real(-1) : high ? Real(1) : g1;
+    g2 = low ? Real(1) : high ? Real(0) : g2;
+    return {node - 1, {s0, s1, s2}, {g0, g1, g2}};
+  }
+};
+
+/// Nodes that one particle sees.
+template <class Shape, int Dim>
+inline constexpr int neighbours = [] {
+  int n = 1;
+  for (int d = 0; d < Dim; ++d) n *= Shape::width;
+  return n;
+}();
+
+}  // namespace riven
