@@ -1,0 +1,158 @@
+// Elastic laws. A law is a small trivially copyable struct, evaluated for one particle at a time; it keeps the
+// Kirchhoff stress over the reference density, tau/rho0 [m^2/s^2], as components xx, yy, xy.
+//
+// A law offers
+//   keeps_F                        whether it needs the deformation gradient, or only its determinant
+//   update(dF, state)              takes the state through the deformation increment dF
+//   energy(state)                  strain energy per mass, J/kg
+//   wave_speed(state)              fastest small wave in the present state, m/s
+//   thickness_ratio(J)             F33 for an in-plane area ratio J
+//   stress_zz(state)               out-of-plane Kirchhoff stress over reference density
+#pragma once
+#include <cmath>
+
+#include "core/exec/config.hpp"
+#include "core/math/tensor.hpp"
+#include "core/scene/scene.hpp"
+
+namespace riven {
+
+/// One particle as a law sees it. `J` is the ratio of present to first area; `F` is used by laws that keep it.
+template <class Real>
+struct LawState {
+  Mat2<Real> F;
+  Real J;
+  Real xx, yy, xy;
+};
+
+/// Lame's constants over density, of the solid.
+struct Elasticity {
+  double lambda, mu;
+  double nu;
+};
+inline Elasticity elasticity(const Material& m) {
+  return {m.E * m.nu / ((1 + m.nu) * (1 - 2 * m.nu)) / m.density, m.E / (2 * (1 + m.nu)) / m.density, m.nu};
+}
+
+/// Isotropic linear elasticity between co-rotated Kirchhoff stress and logarithmic strain, in rate form:
+///   tau <- R (tau + lambda tr(dU - I) I + 2 mu (dU - I)) R^T,   dF = R dU,
+/// objective for increments of any rotation (Hughes and Winget 1980, with the exact polar decomposition).
+/// In plane stress lambda is replaced by 2 lambda mu / (lambda + 2 mu).
+template <class Real>
+struct LinearElastic {
+  static constexpr bool keeps_F = false;
+  Real lambda, mu;  ///< in-plane constants over density
+  Real lateral;     ///< -d ln F33 / d ln J: nu / (1 - nu) in plane stress, 0 in plane strain
+  Real zz;          ///< tau_zz / (tau_xx + tau_yy): nu in plane strain, 0 in plane stress
+
+  LinearElastic() = default;
+  LinearElastic(const Material& m, Plane plane) {
+    const Elasticity e = elasticity(m);
+    const bool stress = plane == Plane::stress;
+    lambda = Real(stress ? 2 * e.lambda * e.mu / (e.lambda + 2 * e.mu) : e.lambda);
+    mu = Real(e.mu);
+    lateral = Real(stress ? e.nu / (1 - e.nu) : 0);
+    zz = Real(stress ? 0 : e.nu);
+  }
+
+  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
+    const Rotation<Real> R = polar_rotation(dF);
+    const Real exx = R.c * dF.xx + R.s * dF.yx - Real(1), eyy = R.c * dF.yy - R.s * dF.xy - Real(1);
+    const Real exy = R.c * dF.xy + R.s * dF.yy, tr = lambda * (exx + eyy);
+    const Real xx = p.xx + tr + Real(2) * mu * exx, yy = p.yy + tr + Real(2) * mu * eyy, xy = p.xy + Real(2) * mu * exy;
+    // R (..) R^T about the mean stress, which does not turn
+    const Real mean = Real(0.5) * (xx + yy), dev = Real(0.5) * (xx - yy);
+    const Real c2 = R.c * R.c - R.s * R.s, s2 = Real(2) * R.s * R.c;
+    const Real turned = c2 * dev - s2 * xy;
+    p.xx = mean + turned;
+    p.yy = mean - turned;
+    p.xy = s2 * dev + c2 * xy;
+    p.J *= det(dF);
+  }
+  RIVEN_INLINE Real energy(const LawState<Real>& p) const {
+    const Real tr = (p.xx + p.yy) / (Real(2) * (lambda + mu)), a = Real(1) / (Real(2) * mu);
+    const Real exx = a * (p.xx - lambda * tr), eyy = a * (p.yy - lambda * tr), exy = a * p.xy;
+    return Real(0.5) * (p.xx * exx + p.yy * eyy) + p.xy * exy;
+  }
+  /// The law is linear in the logarithmic strain: per present length, stiffness falls and density falls with J.
+  RIVEN_INLINE Real wave_speed(const LawState<Real>&) const { return std::sqrt(lambda + Real(2) * mu); }
+  RIVEN_INLINE Real thickness_ratio(Real J) const { return std::pow(J, -lateral); }
+  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return zz * (p.xx + p.yy); }
+};
+
+/// Compressible neo-Hookean solid,
+///   W = mu/2 (tr b - 3) - mu ln J + lambda/4 (J^2 - 1) - lambda/2 ln J,
+///   tau = mu (b - I) + lambda/2 (J^2 - 1) I                               (Simo and Pister 1984)
+/// In plane stress tau_zz = 0 gives F33^2 = (2 mu + lambda) / (2 mu + lambda J2^2), J2 the in-plane determinant.
+template <class Real>
+struct NeoHookean {
+  static constexpr bool keeps_F = true;
+  Real lambda, mu;
+  Real thinning;  ///< lambda in plane stress, 0 in plane strain (F33 = 1)
+
+  NeoHookean() = default;
+  NeoHookean(const Material& m, Plane plane) {
+    const Elasticity e = elasticity(m);
+    lambda = Real(e.lambda);
+    mu = Real(e.mu);
+    thinning = Real(plane == Plane::stress ? e.lambda : 0);
+  }
+
+  RIVEN_INLINE Real thickness_squared(Real J2) const {
+    return (Real(2) * mu + thinning) / (Real(2) * mu + thinning * J2 * J2);
+  }
+  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
+    const Mat2<Real> F = dF * p.F;
+    p.F = F;
+    p.J = det(F);
+    const Real J2 = p.J * p.J, pressure = Real(0.5) * lambda * (J2 * thickness_squared(p.J) - Real(1));
+    p.xx = mu * (F.xx * F.xx + F.xy * F.xy - Real(1)) + pressure;
+    p.yy = mu * (F.yx * F.yx + F.yy * F.yy - Real(1)) + pressure;
+    p.xy = mu * (F.xx * F.yx + F.xy * F.yy);
+  }
+  RIVEN_INLINE Real energy(const LawState<Real>& p) const {
+    const Real J2 = det(p.F), t = thickness_squared(J2), JJ = J2 * J2 * t, logJ = Real(0.5) * std::log(JJ);
+    const Real trace = p.F.xx * p.F.xx + p.F.xy * p.F.xy + p.F.yx * p.F.yx + p.F.yy * p.F.yy + t;
+    return Real(0.5) * mu * (trace - Real(3)) - mu * logJ + Real(0.25) * lambda * (JJ - Real(1)) - Real(0.5) * lambda * logJ;
+  }
+  /// Bound of the acoustic tensor's largest root per present density: (lambda J^2 + mu + mu b_max).
+  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
+    const Real bxx = p.F.xx * p.F.xx + p.F.xy * p.F.xy, byy = p.F.yx * p.F.yx + p.F.yy * p.F.yy;
+    const Real bxy = p.F.xx * p.F.yx + p.F.xy * p.F.yy, half = Real(0.5) * (bxx - byy);
+    const Real largest = Real(0.5) * (bxx + byy) + std::sqrt(half * half + bxy * bxy), J = det(p.F);
+    return std::sqrt(lambda * J * J * thickness_squared(J) + mu * (Real(1) + largest));
+  }
+  RIVEN_INLINE Real thickness_ratio(Real J) const { return std::sqrt(thickness_squared(J)); }
+  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const {
+    const Real J = det(p.F), t = thickness_squared(J);
+    return mu * (t - Real(1)) + Real(0.5) * lambda * (J * J * t - Real(1));
+  }
+};
+
+/// Bodies of different laws in one scene: both are evaluated and the body's own is kept, which costs both but has no
+/// branch.
+template <class Real>
+struct AnyElastic {
+  static constexpr bool keeps_F = true;
+  LinearElastic<Real> linear;
+  NeoHookean<Real> neo;
+  bool is_linear;
+
+  AnyElastic() = default;
+  AnyElastic(const Material& m, Plane plane) : linear(m, plane), neo(m, plane), is_linear(m.law == LawKind::linear_elastic) {}
+
+  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
+    LawState<Real> a = p;
+    linear.update(dF, a);
+    neo.update(dF, p);
+    p.xx = is_linear ? a.xx : p.xx;
+    p.yy = is_linear ? a.yy : p.yy;
+    p.xy = is_linear ? a.xy : p.xy;
+  }
+  RIVEN_INLINE Real energy(const LawState<Real>& p) const { return is_linear ? linear.energy(p) : neo.energy(p); }
+  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const { return is_linear ? linear.wave_speed(p) : neo.wave_speed(p); }
+  RIVEN_INLINE Real thickness_ratio(Real J) const { return is_linear ? linear.thickness_ratio(J) : neo.thickness_ratio(J); }
+  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return is_linear ? linear.stress_zz(p) : neo.stress_zz(p); }
+};
+
+}  // namespace riven
