@@ -1,0 +1,13 @@
+// The commands of riven-perf. Each adds itself, with its options and what it does, to the program.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace riven::perf {
+
+/// `riven-perf machine`: bandwidths and rates of this machine for each core count.
+void add_machine(CLI::App& app);
+
+}  // namespace riven::perf

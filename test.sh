@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Builds riven and runs every test: ./test.sh [options of ctest], for example  -R crack  or  -L kernels
+# Installs missing Debian packages first, and VTK from PyPI into build/venv for reading results back.
+# RIVEN_PRESET=sanitize tests another build; RIVEN_WERROR=ON makes warnings errors; RIVEN_TIDY=ON adds clang-tidy.
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+# Python with the VTK that ParaView is built on; made anew when what it shall hold changes.
+make_venv() {
+  local list=tests/requirements.txt venv=build/venv
+  cmp -s "$list" "$venv/installed.txt" && return
+  say "Installing $(grep -v '^#' "$list" | xargs) into $venv"
+  rm -rf "$venv"
+  "$python" -m venv "$venv" && "$venv/bin/pip" install --quiet -r "$list" && cp "$list" "$venv/installed.txt"
+}
+
+install_packages
+make_venv || echo "Without VTK the tests that read results back will fail" >&2
+say "Building"
+build_targets
+say "Testing"
+log=$build/test.log
+code=0
+ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$jobs" "$@" | tee "$log" || code=$?
+
+# ctest closes with "97% tests passed, 2 tests failed out of 60"
+read -r failed total < <(sed -nE 's/.* ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log" | tail -1) || true
+echo "$((${total:-0} - ${failed:-0})) passed, ${failed:-0} failed"
+exit "$code"
