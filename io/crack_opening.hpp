@@ -1,0 +1,19 @@
+// How far a crack is open, point by point.
+#pragma once
+#include <vector>
+
+#include "core/state/cracks.hpp"
+
+namespace riven {
+
+/// All in m. The normal part is positive where the upper surface has moved away from the lower one, along the
+/// left-hand normal of the crack plane; sliding is along the direction from the crack's first point to its last.
+struct CrackOpening {
+  Vec2 vector;  ///< upper - lower
+  double normal = 0, sliding = 0;
+};
+
+/// One entry per point of all cracks, in their order.
+std::vector<CrackOpening> crack_openings(const Cracks& cracks);
+
+}  // namespace riven

@@ -1,0 +1,93 @@
+#include "io/frames.hpp"
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.hpp"
+#include "io/vtkhdf.hpp"
+#include "io/vtp.hpp"
+
+namespace riven {
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string prefixes[] = {"particles", "cracks"};
+
+std::string frame_name(const std::string& prefix, int number) {
+  return fmt::format("{}_{:06d}", prefix, number);
+}
+
+/// Removes what an older run, or the one that is resumed, has left from this frame on.
+void remove_from(const fs::path& folder, int first_frame) {
+  const auto remove = [](const fs::path& path) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error)
+      fail_file(path, "remove the file", error.value());
+  };
+  for (const std::string& prefix : prefixes) {
+    const std::string first = frame_name(prefix, first_frame);
+    std::vector<fs::path> old;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
+      const std::string name = entry.path().filename().string(), stem = entry.path().stem().string();
+      const bool ours = entry.path().extension() == ".vtkhdf" || entry.path().extension() == ".vtp";
+      if ((ours && stem.starts_with(prefix + "_") && (stem.size() > first.size() || stem >= first)) ||
+          (name.starts_with("." + prefix + "_") && name.ends_with(".part")))
+        old.push_back(entry.path());
+    }
+    for (const fs::path& path : old)
+      remove(path);
+    for (const char* ending : {".vtkhdf", ".pvd"})
+      remove(folder / (prefix + ending));
+  }
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(fs::path folder, const Scene& scene, int first_frame)
+    : folder_(std::move(folder)), scene_(scene), next_(first_frame) {
+  make_folder(folder_ / "frames");
+  remove_from(folder_, first_frame);
+  for (const fs::path& path : list_frames(folder_ / "frames", prefixes[0]))
+    times_.push_back(read_vtkhdf_time(path));
+}
+
+void FrameWriter::write_one(const std::string& prefix, const PolyData& data, double time) const {
+  const fs::path path = folder_ / "frames" / frame_name(prefix, next_);
+  write_vtkhdf(path.string() + ".vtkhdf", data, time);
+  if (scene_.output.sidecar == Sidecar::vtp)
+    write_vtp(path.string() + ".vtp", data, time);
+}
+
+void FrameWriter::write(double time, const Particles<double, 2>& particles, const Cracks& cracks) {
+  write_one(prefixes[0], particle_poly(particles, scene_), time);
+  if (!scene_.cracks.empty())
+    write_one(prefixes[1], crack_poly(cracks), time);
+  times_.push_back(time);
+  ++next_;
+  if (scene_.output.sidecar == Sidecar::vtp)
+    write_indices();
+}
+
+void FrameWriter::write_indices() const {
+  for (const std::string& prefix : prefixes) {
+    if (prefix == prefixes[1] && scene_.cracks.empty())
+      continue;
+    std::vector<std::pair<double, std::string>> entries;
+    for (std::size_t n = 0; n < times_.size(); ++n)
+      entries.emplace_back(times_[n], "frames/" + frame_name(prefix, static_cast<int>(n)) + ".vtp");
+    write_pvd(folder_ / (prefix + ".pvd"), entries);
+  }
+}
+
+void FrameWriter::finish() const {
+  assemble_frames(folder_);
+}
+
+int assemble_frames(const fs::path& folder) {
+  const int particles = assemble_vtkhdf(folder / "frames", prefixes[0], folder / (prefixes[0] + ".vtkhdf"));
+  assemble_vtkhdf(folder / "frames", prefixes[1], folder / (prefixes[1] + ".vtkhdf"));
+  return particles;
+}
+
+}  // namespace riven

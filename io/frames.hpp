@@ -1,0 +1,56 @@
+// Frames: the state of a run as files to open in ParaView. Everything in SI.
+#pragma once
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/particles.hpp"
+#include "io/poly_data.hpp"
+
+namespace riven {
+
+/// Particles as vertices, in the order of their ids. Point arrays:
+///   id, body, material;
+///   size [m]                first edge of the square that the particle stands for;
+///   velocity [m/s], displacement [m] (where the first positions are kept): x y 0;
+///   stress [Pa]             Cauchy, in VTK's order xx yy zz xy yz xz;
+///   von_mises [Pa], J       volume ratio, thickness included;
+///   deformation_gradient    F11 F12 F21 F22 (where it is kept);
+///   fringe                  cos(k sqrt((sxx - syy)^2 + 4 sxy^2)), k the scene's fringe constant (where asked for;
+///                           isochromatic fringes, Nairn 2003, eq. 23).
+PolyData particle_poly(const Particles<double, 2>& particles, const Scene& scene);
+
+/// One line per crack, through the points of its plane. Point arrays:
+///   crack; first_position [m]; upper, lower [m] positions of the surfaces; opening [m] = upper - lower;
+///   normal_opening [m]      along the crack's left-hand normal, positive where the crack is open;
+///   sliding [m]             along the direction from the first point to the last.
+/// Cell arrays: crack.
+PolyData crack_poly(const Cracks& cracks);
+
+/// Writes numbered frames into `folder`/frames, each whole or not at all, and joins them at the end.
+class FrameWriter {
+ public:
+  /// A run that begins anew (first_frame = 0) removes the frames of an older run in the same folder; one that is
+  /// resumed keeps those before first_frame. Throws Error (file).
+  FrameWriter(std::filesystem::path folder, const Scene& scene, int first_frame = 0);
+  void write(double time, const Particles<double, 2>& particles, const Cracks& cracks);
+  /// Makes particles.vtkhdf and cracks.vtkhdf.
+  void finish() const;
+  int next_frame() const { return next_; }
+
+ private:
+  void write_one(const std::string& prefix, const PolyData& data, double time) const;
+  void write_indices() const;
+
+  std::filesystem::path folder_;
+  const Scene& scene_;
+  int next_;
+  std::vector<double> times_;  ///< of all frames so far
+};
+
+/// Joins the frames of a finished or killed run. Returns how many frames of particles there were.
+int assemble_frames(const std::filesystem::path& folder);
+
+}  // namespace riven

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/laws/elastic.hpp"
+#include "io/frames.hpp"
+
+namespace riven {
+namespace {
+
+struct Cauchy {
+  double xx = 0, yy = 0, zz = 0, xy = 0;
+};
+
+double von_mises(const Cauchy& s) {
+  const double a = s.xx - s.yy, b = s.yy - s.zz, c = s.zz - s.xx;
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.xy * s.xy);
+}
+
+LawState<double> law_state(const Particles<double, 2>& p, int i) {
+  LawState<double> s;
+  s.F = p.F[0].empty() ? Mat2<double>{1, 0, 0, 1} : Mat2<double>{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
+  s.J = p.J.empty() ? det(s.F) : p.J[i];
+  s.xx = p.stress[0][i];
+  s.yy = p.stress[1][i];
+  s.xy = p.stress[2][i];
+  return s;
+}
+
+/// Particle numbers in the order of their ids.
+std::vector<int> order_by_id(const Particles<double, 2>& p) {
+  std::vector<int> order(static_cast<std::size_t>(p.count()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return p.id[a] < p.id[b]; });
+  return order;
+}
+
+/// Calls row(i, out) for each particle i in `order` to append `components` numbers to the new array.
+template <class T, class Row>
+PolyArray gather(std::string name, std::string unit, int components, const std::vector<int>& order, Row&& row) {
+  std::vector<T> out;
+  out.reserve(order.size() * static_cast<std::size_t>(components));
+  for (const int i : order)
+    row(i, out);
+  return {std::move(name), components, std::move(unit), std::move(out)};
+}
+
+}  // namespace
+
+PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
+  using Reals = std::vector<double>;
+  using Integers = std::vector<std::int64_t>;
+  const std::vector<int> order = order_by_id(p);
+  const auto n = static_cast<std::int64_t>(order.size());
+
+  std::vector<AnyElastic<double>> laws;
+  for (const Material& m : scene.materials)
+    laws.emplace_back(m, scene.plane);
+  const auto body = [&](int i) -> const Body& { return scene.bodies[p.body[i]]; };
+
+  std::vector<Cauchy> stress(order.size());  // by particle number
+  Reals ratio(order.size());
+  for (const int i : order) {
+    const AnyElastic<double>& law = laws[static_cast<std::size_t>(body(i).material)];
+    const LawState<double> state = law_state(p, i);
+    const double volume = state.J * law.thickness_ratio(state.J);
+    const double scale = scene.materials[static_cast<std::size_t>(body(i).material)].density / volume;
+    ratio[static_cast<std::size_t>(i)] = volume;
+    stress[static_cast<std::size_t>(i)] = {scale * state.xx, scale * state.yy, scale * law.stress_zz(state),
+                                           scale * state.xy};
+  }
+  const auto stress_of = [&](int i) -> const Cauchy& { return stress[static_cast<std::size_t>(i)]; };
+
+  PolyData d;
+  d.kind = PolyData::Cells::vertices;
+  d.connectivity.resize(order.size());
+  d.offsets.resize(order.size() + 1);
+  std::iota(d.connectivity.begin(), d.connectivity.end(), std::int64_t{0});
+  std::iota(d.offsets.begin(), d.offsets.end(), std::int64_t{0});
+  d.points.reserve(static_cast<std::size_t>(3 * n));
+  for (const int i : order)
+    d.points.insert(d.points.end(), {p.x[0][i], p.x[1][i], 0.0});
+
+  auto& a = d.point_arrays;
+  a.push_back(gather<std::int64_t>("id", "", 1, order, [&](int i, Integers& o) { o.push_back(p.id[i]); }));
+  a.push_back(gather<std::int64_t>("body", "", 1, order, [&](int i, Integers& o) { o.push_back(p.body[i]); }));
+  a.push_back(
+      gather<std::int64_t>("material", "", 1, order, [&](int i, Integers& o) { o.push_back(body(i).material); }));
+  a.push_back(gather<double>("size", "m", 1, order,
+                             [&](int i, Reals& o) { o.push_back(scene.cell / body(i).particles_per_cell); }));
+  a.push_back(gather<double>("velocity", "m/s", 3, order, [&](int i, Reals& o) {
+    o.insert(o.end(), {p.v[0][i], p.v[1][i], 0.0});
+  }));
+  if (!p.x0[0].empty())
+    a.push_back(gather<double>("displacement", "m", 3, order, [&](int i, Reals& o) {
+      o.insert(o.end(), {p.x[0][i] - p.x0[0][i], p.x[1][i] - p.x0[1][i], 0.0});
+    }));
+  a.push_back(gather<double>("stress", "Pa", 6, order, [&](int i, Reals& o) {
+    const Cauchy& s = stress_of(i);
+    o.insert(o.end(), {s.xx, s.yy, s.zz, s.xy, 0.0, 0.0});
+  }));
+  a.push_back(
+      gather<double>("von_mises", "Pa", 1, order, [&](int i, Reals& o) { o.push_back(von_mises(stress_of(i))); }));
+  a.push_back(
+      gather<double>("J", "", 1, order, [&](int i, Reals& o) { o.push_back(ratio[static_cast<std::size_t>(i)]); }));
+  if (!p.F[0].empty())
+    a.push_back(gather<double>("deformation_gradient", "", 4, order, [&](int i, Reals& o) {
+      o.insert(o.end(), {p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]});
+    }));
+  const auto& extra = scene.output.fields;
+  if (std::find(extra.begin(), extra.end(), "fringe") != extra.end())
+    a.push_back(gather<double>("fringe", "", 1, order, [&](int i, Reals& o) {
+      const Cauchy& s = stress_of(i);
+      o.push_back(std::cos(scene.output.fringe_constant * std::hypot(s.xx - s.yy, 2 * s.xy)));
+    }));
+  return d;
+}
+
+}  // namespace riven
