@@ -15,21 +15,22 @@ install_packages() {
     say "This is no Debian: the tools and libraries of packages.txt must be there already"
     return
   fi
-  local wanted present missing
-  wanted=$(sed 's/#.*//' packages.txt | xargs -n1 | sort -u)
-  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
-  missing=$(comm -23 <(echo "$wanted") <(echo "$present") | xargs)
+  local package present missing=""
+  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n')
+  for package in $(sed 's/#.*//' packages.txt); do
+    grep -qx "installed $package" <<<"$present" || missing+=" $package"
+  done
   [ -z "$missing" ] && return
   local root=()
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
       echo "These Debian packages are missing, and neither root nor sudo is at hand to install them:" >&2
-      echo "  apt-get install --no-install-recommends $missing" >&2
+      echo "  apt-get install --no-install-recommends$missing" >&2
       exit 4
     fi
     root=(sudo)
   fi
-  say "Installing $missing"
+  say "Installing$missing"
   "${root[@]}" apt-get update -qq
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing
 }
