@@ -1,0 +1,79 @@
+// summary.json: how a run went and what came out of it, for people and for programs.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.hpp"
+#include "core/state/cracks.hpp"
+
+namespace riven {
+
+/// Everything in SI. Numbers that are not finite become null.
+struct Summary {
+  struct Task {
+    std::string label;
+    std::string effect;  ///< that the task belongs to; empty for the plain step
+    long calls = 0;
+    double seconds = 0;
+  };
+  struct Energy {
+    double kinetic = 0, strain = 0, external_work = 0, damping = 0, contact = 0, fracture = 0;  ///< J
+    double numerical = 0;       ///< J, gained (+) or lost (-) by the scheme
+    double relative_error = 0;  ///< |numerical| over the largest energy of the run
+  };
+  struct Warning {
+    std::string kind;
+    long count = 0;
+    Vec2 first_place;  ///< m
+  };
+  struct Tip {
+    std::string crack;
+    std::string end;  ///< "first" or "last"
+    double x = 0, y = 0, length = 0, J = 0, J1 = 0, J2 = 0, K_I = 0, K_II = 0, speed = 0;
+    std::string contour;
+    bool adapted = false;
+  };
+  struct Value {
+    std::string name;
+    double value = 0;
+    std::string unit;
+  };
+  struct Crack {
+    std::string name;
+    double max_opening = 0;  ///< m, normal
+    double length = 0;       ///< m, along the plane
+  };
+  struct Reaction {
+    std::string grip;
+    Vec2 force;  ///< N, of the body on the grip
+  };
+
+  std::string scene, title;
+  std::string status;   ///< "done", "unstable", "interrupted" or "failed"
+  std::string message;  ///< why it stopped early; empty when it is done
+  long steps = 0;
+  double time = 0;  ///< s
+  double wall_seconds = 0;
+  long particles = 0;
+  double particle_steps_per_second = 0;
+  int threads = 1;
+  std::string exec, scatter;
+  std::vector<std::string> effects;
+  std::vector<Task> tasks;
+  Energy energy;
+  double momentum_error = 0, angular_momentum_error = 0;
+  std::vector<Warning> warnings;
+  std::vector<Tip> tips;
+  std::vector<Value> probes;
+  std::vector<Crack> cracks;
+  std::vector<Reaction> reactions;
+};
+
+/// Opening and length of every crack as it is now.
+std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks);
+
+/// The file appears whole or not at all. Throws Error (file).
+void write_summary(const std::filesystem::path& path, const Summary& summary);
+
+}  // namespace riven
