@@ -14,19 +14,22 @@ namespace riven {
 /// segment a-b is positive. The normal points from above to below (seed 002, section 2.2).
 struct Cracks {
   std::vector<std::string> names;
-  std::vector<ContactSettings> contact;  ///< law of each crack
-  std::vector<int> start{0};             ///< [cracks + 1]
-  exec::Array<int> crack;                ///< [points] which crack a point belongs to
-  exec::Array<Vec2> plane;               ///< [points] crack plane
-  exec::Array<Vec2> upper, lower;        ///< [points] surface positions, above and below
+  std::vector<ContactSettings> contact;              ///< law of each crack
+  std::vector<int> start{0};                         ///< [cracks + 1]
+  exec::Array<int> crack;                            ///< [points] which crack a point belongs to
+  exec::Array<Vec2> plane;                           ///< [points] crack plane
+  exec::Array<Vec2> upper, lower;                    ///< [points] surface positions, above and below
   exec::Array<Vec2> upper_velocity, lower_velocity;  ///< [points] XPIC(1) only
-  exec::Array<Vec2> plane0;              ///< [points] where the plane was when the point was made
+  bool velocities_known = false;                     ///< set by the first move; until then surfaces start with the grid
+  exec::Array<Vec2> plane0;                          ///< [points] where the plane was when the point was made
 
   int count() const { return static_cast<int>(names.size()); }
   int points() const { return start.back(); }
 };
 
-/// Cuts each line of the scene into segments no longer than its resolution and lays the surfaces on it.
+/// Cuts each line of the scene into equal segments no longer than its resolution (m; where it says none,
+/// `default_resolution`), keeping the given points, and lays the surfaces on it.
+/// Throws Error (bad input) for a line without length.
 Cracks make_cracks(const Scene& scene, double default_resolution);
 
 }  // namespace riven

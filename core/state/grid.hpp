@@ -5,13 +5,15 @@
 // with extra[n] = -1 where no crack can be seen. A node that can see one crack owns one extra slot, a node that
 // can see two or more owns three.
 #pragma once
+#include <cmath>
+
 #include "core/exec/array.hpp"
 #include "core/math/vec.hpp"
 
 namespace riven {
 
 /// Where the nodes are. Node (i, j) lies at origin + h (i, j), and has number j nx + i. The walls are the
-/// user's box; two or more layers of ghost nodes lie outside of it, up to whole tiles.
+/// user's box; four or more layers of ghost nodes lie outside of it, up to whole tiles.
 struct Lattice {
   int nx = 0, ny = 0;          ///< nodes along each axis, ghosts included; multiples of tile
   double h = 0;                ///< cell edge, m
@@ -20,13 +22,14 @@ struct Lattice {
   int wall_upper[2] = {0, 0};
 
   static constexpr int tile = 8;    ///< edge of a tile in nodes
-  static constexpr int ghosts = 2;  ///< least number of node layers outside the walls
+  static constexpr int ghosts = 4;  ///< node layers below the walls; at least as many above
 
   RIVEN_INLINE int nodes() const { return nx * ny; }
   RIVEN_INLINE int tiles_x() const { return nx / tile; }
   RIVEN_INLINE int tiles_y() const { return ny / tile; }
-  RIVEN_INLINE Vec2 position(int node) const { return {origin.x + h * (node % nx), origin.y + h * (node / nx)}; }
-  RIVEN_INLINE Vec2 position(int i, int j) const { return {origin.x + h * i, origin.y + h * j}; }
+  RIVEN_INLINE Vec2 position(int node) const { return position(node % nx, node / nx); }
+  /// Rounded once, by fma, so that every kernel sees a node at the same place to the last bit.
+  RIVEN_INLINE Vec2 position(int i, int j) const { return {std::fma(h, i, origin.x), std::fma(h, j, origin.y)}; }
 };
 
 /// A lattice whose walls are the given box, with ghost layers around it.

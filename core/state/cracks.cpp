@@ -1,0 +1,68 @@
+#include "core/state/cracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace riven {
+
+namespace {
+
+/// The points of one line, cut. Points that repeat the one before are dropped.
+std::vector<Vec2> cut(const CrackLine& line, double resolution) {
+  std::vector<Vec2> points;
+  for (Vec2 to : line.points) {
+    if (points.empty()) {
+      points.push_back(to);
+      continue;
+    }
+    const Vec2 from = points.back();
+    const double length = norm(to - from);
+    if (length == 0)
+      continue;
+    // the small allowance keeps a length that is a whole number of pieces but for rounding from an extra piece
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / resolution * (1 - 1e-9))));
+    for (int i = 1; i < pieces; ++i)
+      points.push_back(from + (double(i) / pieces) * (to - from));
+    points.push_back(to);
+  }
+  return points;
+}
+
+}  // namespace
+
+Cracks make_cracks(const Scene& scene, double default_resolution) {
+  Cracks cracks;
+  std::vector<Vec2> all;
+  std::vector<int> owner;
+  for (const CrackLine& line : scene.cracks) {
+    const std::vector<Vec2> points = cut(line, line.resolution > 0 ? line.resolution : default_resolution);
+    if (points.size() < 2)
+      fail({.code = Exit::bad_input,
+            .what = "a crack has no length",
+            .where = "crack \"" + line.name + "\"",
+            .value = {},
+            .limit = "two points or more that differ",
+            .suggestion = {}});
+    all.insert(all.end(), points.begin(), points.end());
+    owner.insert(owner.end(), points.size(), cracks.count());
+    cracks.names.push_back(line.name);
+    cracks.contact.push_back(line.contact.value_or(scene.contact));
+    cracks.start.push_back(static_cast<int>(all.size()));
+  }
+  const long n = static_cast<long>(all.size());
+  for (auto* a : {&cracks.plane, &cracks.upper, &cracks.lower, &cracks.plane0}) {
+    a->resize(n);
+    std::copy(all.begin(), all.end(), a->begin());
+  }
+  cracks.crack.resize(n);
+  std::copy(owner.begin(), owner.end(), cracks.crack.begin());
+  if (scene.surface_update == SurfaceUpdate::xpic) {
+    cracks.upper_velocity.resize(n);
+    cracks.lower_velocity.resize(n);
+  }
+  return cracks;
+}
+
+}  // namespace riven

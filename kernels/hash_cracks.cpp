@@ -1,0 +1,170 @@
+#include "kernels/hash_cracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/exec/atomic.hpp"
+#include "core/exec/parallel.hpp"
+#include "core/math/shape.hpp"
+
+namespace riven {
+
+namespace {
+
+/// For lattice place (i, j) the box [i + lower, i + upper] x [j + lower, j + upper], in cells.
+struct Reach {
+  double lower, upper;
+};
+
+/// A CSR of the segments whose distance to the box of a place is within the margin.
+struct Bins {
+  exec::Array<int>& index;  ///< [nodes] position in the lists, or -1
+  exec::Array<int>& place;
+  exec::Array<int>& start;
+  exec::Array<int>& segment;
+};
+
+/// f(place) for every place whose box meets the segment a-b (in cells).
+template <class F>
+void each_place(Vec2 a, Vec2 b, Reach reach, const Lattice& lattice, const F& f) {
+  const double lower = reach.lower - CrackFields::margin, upper = reach.upper + CrackFields::margin;
+  const auto first = [&](double x) { return std::max(0, static_cast<int>(std::ceil(x - upper))); };
+  const auto last = [&](double x, int n) { return std::min(n - 1, static_cast<int>(std::floor(x - lower))); };
+  const int i0 = first(std::min(a.x, b.x)), i1 = last(std::max(a.x, b.x), lattice.nx);
+  const int j0 = first(std::min(a.y, b.y)), j1 = last(std::max(a.y, b.y), lattice.ny);
+  const Vec2 d = b - a;
+  const double center = (lower + upper) / 2, reach_across = (upper - lower) / 2 * (std::fabs(d.x) + std::fabs(d.y));
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i)
+      if (std::fabs(cross(d, Vec2{i + center, j + center} - a)) <= reach_across)
+        f(j * lattice.nx + i);
+}
+
+void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, Reach reach, Bins bins) {
+  const long nodes = lattice.nodes(), segments = std::max(0, cracks.points() - 1);
+  const auto places_of = [&, crack = cracks.crack.data(), plane = cracks.plane.data()](long k, const auto& f) {
+    if (crack[k] != crack[k + 1])
+      return;
+    const Vec2 a = (plane[k] - lattice.origin) * (1 / lattice.h), b = (plane[k + 1] - lattice.origin) * (1 / lattice.h);
+    each_place(a, b, reach, lattice, f);
+  };
+  bins.index.resize(nodes);
+  std::memset(bins.index.data(), 0xff, static_cast<size_t>(nodes) * sizeof(int));
+  int* index = bins.index.data();
+  exec::launch(space, segments, [&](long k) { places_of(k, [&](int p) { exec::atomic_add(index[p], 1); }); });
+
+  // index + 1 is now the count of each place
+  bins.place.resize(nodes);
+  bins.start.resize(nodes + 1);
+  int used = 0, total = 0;
+  for (int p = 0; p < nodes; ++p) {
+    if (index[p] < 0)
+      continue;
+    const int count = index[p] + 1;
+    bins.place[used] = p;
+    bins.start[used] = total;
+    index[p] = used++;
+    total += count;
+  }
+  bins.start[used] = total;
+  bins.place.resize(used);
+  bins.start.resize(used + 1);
+  bins.segment.resize(total);
+  exec::Array<int> cursor(used);
+  exec::launch(space, segments, [&](long k) {
+    places_of(k, [&](int p) {
+      const int at = exec::atomic_add(cursor[index[p]], 1);
+      bins.segment[bins.start[index[p]] + at] = static_cast<int>(k);
+    });
+  });
+  int* segment = bins.segment.data();
+  exec::launch(space, used, [&](long u) { std::sort(segment + bins.start[u], segment + bins.start[u + 1]); });
+}
+
+void mark_tiles(const Lattice& lattice, CrackFields& fields) {
+  fields.tile_marked.resize(lattice.tiles_x() * lattice.tiles_y());
+  fields.tile_marked.zero();
+  // particles may have drifted by one cell since they were sorted into their tile
+  const auto tile = [](int cell, int n) { return std::clamp(cell, 0, n - 1) / Lattice::tile; };
+  for (int cell : fields.cells) {
+    const int i = cell % lattice.nx, j = cell / lattice.nx;
+    for (int ty = tile(j - 1, lattice.ny); ty <= tile(j + 1, lattice.ny); ++ty)
+      for (int tx = tile(i - 1, lattice.nx); tx <= tile(i + 1, lattice.nx); ++tx)
+        fields.tile_marked[ty * lattice.tiles_x() + tx] = 1;
+  }
+  fields.marked_tiles.resize(fields.tile_marked.size());
+  int used = 0;
+  for (int t = 0; t < fields.tile_marked.size(); ++t)
+    if (fields.tile_marked[t])
+      fields.marked_tiles[used++] = t;
+  fields.marked_tiles.resize(used);
+}
+
+/// Candidate cracks of each node from the segments near it, and the extra slots that they ask for.
+void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::Array<int>& node,
+                     const exec::Array<int>& start, const exec::Array<int>& segment, CrackFields& fields) {
+  const long flagged = node.size();
+  fields.nodes.resize(flagged);
+  fields.candidate_start.resize(flagged + 1);
+  fields.candidate.resize(segment.size());
+  fields.extra.resize(lattice.nodes());
+  std::memset(fields.extra.data(), 0xff, static_cast<size_t>(lattice.nodes()) * sizeof(int));
+  int total = 0, slots = 0;
+  for (long f = 0; f < flagged; ++f) {
+    const int first = total;
+    for (int s = start[f]; s < start[f + 1]; ++s) {
+      const int c = cracks.crack[segment[s]];
+      if (total == first || fields.candidate[total - 1] != c)
+        fields.candidate[total++] = c;
+    }
+    fields.nodes[f] = NodeCracks{};
+    fields.nodes[f].node = node[f];
+    fields.candidate_start[f] = first;
+    fields.extra[node[f]] = slots;
+    slots += total - first == 1 ? 1 : 3;
+  }
+  fields.candidate_start[flagged] = total;
+  fields.candidate.resize(total);
+  fields.extra_slots = slots;
+}
+
+}  // namespace
+
+bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
+  const long points = cracks.points();
+  if (fields.cell_index.size() != lattice.nodes() || fields.hashed.size() != points)
+    return true;
+  const double limit = 0.99 * CrackFields::margin * lattice.h;  // less a little for rounding
+  const auto moved = [&, now = cracks.plane.data(), then = fields.hashed.data()](long k) {
+    return long{std::fabs(now[k].x - then[k].x) > limit || std::fabs(now[k].y - then[k].y) > limit};
+  };
+  return exec::parallel_reduce<long>(space, "hash cracks", points, moved) > 0;
+}
+
+template <class Shape>
+void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  const exec::Stopwatch watch(space.timers(), "hash cracks");
+  // paths lie between the cell's nodes; those that end at one node start at most one (linear) or one and a half cells
+  // away from it along each axis
+  constexpr bool wide = Shape::width == 3;
+  constexpr Reach cell = wide ? Reach{-1, 1} : Reach{0, 1}, node = wide ? Reach{-1.5, 1.5} : Reach{-1, 1};
+  fill(space, lattice, cracks, cell, {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
+  mark_tiles(lattice, fields);
+  exec::Array<int> flagged, start, segment;
+  fill(space, lattice, cracks, node, {fields.node_index, flagged, start, segment});
+  list_candidates(lattice, cracks, flagged, start, segment, fields);
+
+  fields.tally.resize(2 * fields.candidate.size());
+  fields.tally_normal.resize(4 * fields.tally.size());
+  fields.verdict.resize(fields.tally.size());
+  fields.tally.zero();
+  fields.tally_normal.zero();
+  fields.hashed = cracks.plane;
+}
+
+template void hash_cracks<Linear>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
+template void hash_cracks<UGimp>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
+template void hash_cracks<BSpline>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
+
+}  // namespace riven

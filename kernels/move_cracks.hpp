@@ -1,0 +1,32 @@
+// Moves the surfaces and the plane of all cracks with the advanced grid (Nairn et al., section 2.1.2).
+//
+// Velocity and acceleration at a surface point x_s are mass-weighted and renormalised over the nodes that have mass in
+// the field v(s,i), with the ordinary functions of the grid N_i, as these points have no domain (eqs. 3-6):
+//   v = sum m_i N_i v_i / sum m_i N_i,    a likewise.
+// A surface moves by
+//   flip   v dt - a dt^2 / 2                              (second order)
+//   xpic   (3 v - v_s) dt / 2 - a dt^2,  v_s := v         (XPIC(1); v_s starts as v - a dt)
+//   pic    v dt                                           (first order)
+// and the plane by the mean of both surfaces' moves, or with the centre of mass: the same sums over all fields of each
+// node, moved as in flip. A surface that finds no mass moves with the plane; a point where none is found moves with
+// the nearest point of its crack that does, so that the part of a crack outside of its body follows the body.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/scene/scene.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+struct CrackRules {
+  CrackMotion motion = CrackMotion::surfaces;
+  SurfaceUpdate update = SurfaceUpdate::xpic;
+};
+
+/// `grid.q` holds [vx vy ax ay], `fields` what determine_fields made in this step. Shape: that of the particles.
+template <class Shape, class Real>
+void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
+                 double dt, Cracks& cracks);
+
+}  // namespace riven

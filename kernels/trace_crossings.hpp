@@ -1,0 +1,22 @@
+// Trace: every particle-node pair of a marked cell, with a non-zero shape function, against the cell's segments.
+//
+// A first test in single precision, over the nodes of one particle at a time, sorts out the segments that surely are
+// not crossed; what remains goes through the exact test (core/fracture/crossing.hpp). A pair that crosses a crack is
+// recorded, and the normals of the crossed segments are summed for its node, crack and side.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/bodies.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/grid.hpp"
+#include "core/state/particles.hpp"
+
+namespace riven {
+
+/// Fills `records`, `chunks`, `tally` and `tally_normal`; the sums must be zero. `domains`: [bodies].
+template <class Shape, class Real>
+void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particles,
+                     const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
+                     CrackFields& fields);
+
+}  // namespace riven
