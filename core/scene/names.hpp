@@ -29,6 +29,7 @@ RIVEN_NAMES(ContactLaw, {{ContactLaw::ignored, "ignored"}, {ContactLaw::bonded, 
 RIVEN_NAMES(ContactDetection, {{ContactDetection::volume, "volume"}, {ContactDetection::velocity, "velocity"}, {ContactDetection::displacement, "displacement"}})
 RIVEN_NAMES(Sidecar, {{Sidecar::none, "none"}, {Sidecar::vtp, "vtp"}})
 RIVEN_NAMES(Load::Edge, {{Load::Edge::left, "left"}, {Load::Edge::right, "right"}, {Load::Edge::bottom, "bottom"}, {Load::Edge::top, "top"}})
+RIVEN_NAMES(Load::Kind, {{Load::Kind::force, "force"}, {Load::Kind::traction, "traction"}})
 RIVEN_NAMES(Probe::Kind, {{Probe::Kind::crack_opening, "crack_opening"}, {Probe::Kind::displacement, "displacement"}, {Probe::Kind::velocity, "velocity"}, {Probe::Kind::stress, "stress"}, {Probe::Kind::reaction, "reaction"}, {Probe::Kind::mean_stress, "mean_stress"}})
 RIVEN_NAMES(exec::Kind, {{exec::Kind::serial, "serial"}, {exec::Kind::openmp, "openmp"}, {exec::Kind::stdpar, "stdpar"}})
 #undef RIVEN_NAMES

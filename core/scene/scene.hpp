@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -200,6 +201,8 @@ struct Scene {
   Limits limits;
 
   std::vector<std::string> defaults;  ///< "key = value" of everything that was not said, for the header
+  /// Where keys and named things were written: "grid.cell" -> "scene.toml:9: grid.cell", "crack left" -> ...
+  std::map<std::string, std::string> places;
 };
 
 }  // namespace riven

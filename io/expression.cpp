@@ -1,0 +1,168 @@
+#include "io/expression.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/suggest.hpp"
+
+namespace riven {
+
+namespace {
+
+constexpr size_t longest_shape = 1000;
+constexpr int samples = 200;
+
+using Unary = double (*)(double);
+using Binary = double (*)(double, double);
+
+// Fixed numbers of arguments only, and nothing random: a shape is the same function whenever it is called.
+const std::vector<std::pair<std::string, Unary>>& unary_functions() {
+  static const std::vector<std::pair<std::string, Unary>> table{
+      {"sin", [](double x) { return std::sin(x); }},
+      {"cos", [](double x) { return std::cos(x); }},
+      {"tan", [](double x) { return std::tan(x); }},
+      {"asin", [](double x) { return std::asin(x); }},
+      {"acos", [](double x) { return std::acos(x); }},
+      {"atan", [](double x) { return std::atan(x); }},
+      {"sinh", [](double x) { return std::sinh(x); }},
+      {"cosh", [](double x) { return std::cosh(x); }},
+      {"tanh", [](double x) { return std::tanh(x); }},
+      {"exp", [](double x) { return std::exp(x); }},
+      {"ln", [](double x) { return std::log(x); }},
+      {"log10", [](double x) { return std::log10(x); }},
+      {"sqrt", [](double x) { return std::sqrt(x); }},
+      {"abs", [](double x) { return std::abs(x); }},
+      {"sign", [](double x) { return x > 0   ? 1.0
+                                     : x < 0 ? -1.0
+                                             : 0.0; }},
+      {"floor", [](double x) { return std::floor(x); }},
+      {"ceil", [](double x) { return std::ceil(x); }},
+      {"step", [](double x) { return x < 0 ? 0.0 : 1.0; }}};
+  return table;
+}
+
+const std::vector<std::pair<std::string, Binary>>& binary_functions() {
+  static const std::vector<std::pair<std::string, Binary>> table{
+      {"min", [](double a, double b) { return std::min(a, b); }},
+      {"max", [](double a, double b) { return std::max(a, b); }},
+      {"atan2", [](double a, double b) { return std::atan2(a, b); }}};
+  return table;
+}
+
+/// A parser with t bound to a variable of its own; not to be copied or moved, muParser keeps the address.
+class Shape {
+ public:
+  Shape(const std::string& text, const std::map<std::string, double>& times) {
+    parser_.ClearFun();
+    parser_.ClearConst();
+    for (const auto& [name, f] : unary_functions())
+      parser_.DefineFun(name, f);
+    for (const auto& [name, f] : binary_functions())
+      parser_.DefineFun(name, f);
+    parser_.DefineConst("pi", std::numbers::pi);
+    for (const auto& [name, value] : times)
+      parser_.DefineConst(name, value);
+    parser_.DefineVar("t", &t_);
+    parser_.SetExpr(text);
+  }
+  Shape(const Shape&) = delete;
+  Shape& operator=(const Shape&) = delete;
+
+  /// Value at t; throws mu::ParserError when the text has no single value.
+  double at(double t) {
+    t_ = t;
+    int values = 0;
+    const double* last = parser_.Eval(values);
+    if (values != 1)
+      throw mu::ParserError("one value expected, found a list");
+    return last[0];
+  }
+
+ private:
+  mu::Parser parser_;
+  double t_ = 0;
+};
+
+std::vector<std::string> names(const std::map<std::string, double>& times) {
+  std::vector<std::string> all{"t", "pi"};
+  for (const auto& [name, f] : unary_functions())
+    all.push_back(name);
+  for (const auto& [name, f] : binary_functions())
+    all.push_back(name);
+  for (const auto& [name, value] : times)
+    all.push_back(name);
+  return all;
+}
+
+[[noreturn]] void refuse(std::string what, std::string_view text, std::string limit, std::string hint = {}) {
+  fail({Exit::bad_input, std::move(what), "", "\"" + shown(text) + "\"", std::move(limit), std::move(hint)});
+}
+
+void check_characters(const std::string& text) {
+  if (text.size() > longest_shape)
+    refuse("the expression is too long", text, fmt::format("{} characters", longest_shape));
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (!std::isalnum(static_cast<unsigned char>(c)) &&
+        std::string_view(" _.,+-*/^()<>=!&|?:").find(c) == std::string_view::npos)
+      refuse("the expression has a character that it cannot have", text, "+ - * / ^ ( ) < > <= >= == != && || ? :");
+    if (c != '=')
+      continue;
+    const bool compares = (i > 0 && std::string_view("<>=!").find(text[i - 1]) != std::string_view::npos) ||
+                          (i + 1 < text.size() && text[i + 1] == '=');
+    if (!compares)
+      refuse("an expression cannot assign", text, "comparisons: == != <= >=", "'==' instead of '='");
+  }
+}
+
+void check_times(const std::map<std::string, double>& times) {
+  const std::vector<std::string> taken = names({});
+  for (const auto& [name, value] : times) {
+    const bool word =
+        !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
+        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (!word || name.size() > 32 || std::find(taken.begin(), taken.end(), name) != taken.end())
+      refuse("this cannot be the name of a time", name, "letters, digits and _, and not the name of a function");
+  }
+}
+
+}  // namespace
+
+std::function<double(double)> parse_shape(const std::string& text, const std::map<std::string, double>& times,
+                                          double end) {
+  check_characters(text);
+  check_times(times);
+  try {
+    const auto shape = std::make_shared<Shape>(text, times);
+    for (int i = 0; i <= samples; ++i) {
+      const double t = end * i / samples, value = shape->at(t);
+      if (!std::isfinite(value))
+        refuse(fmt::format("the expression is not finite at t = {:.6g} s", t), text,
+               fmt::format("finite values from t = 0 to the end, {:.6g} s", end));
+    }
+    return [shape](double t) {
+      try {
+        return shape->at(t);
+      } catch (const mu::ParserError&) {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+    };
+  } catch (const mu::ParserError& e) {
+    const std::string near = nearest(e.GetToken(), names(times));
+    refuse("the expression cannot be read: " + shown(e.GetMsg()), text,
+           "t, pi, the named times and " + listed(names({})),
+           near.empty() || near == e.GetToken() ? "" : "did you mean '" + near + "'?");
+  }
+}
+
+}  // namespace riven

@@ -1,0 +1,58 @@
+#include "io/read_scene.hpp"
+
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "io/check_scene.hpp"
+#include "io/overrides.hpp"
+#include "io/scene_reader.hpp"
+#include "io/text_file.hpp"
+
+namespace riven {
+
+namespace {
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& e) {
+    fail({Exit::bad_input, "this is not TOML: " + shown(e.description()),
+          fmt::format("{}:{}", name, e.source().begin.line), "", "", "see https://toml.io; texts stand in quotes"});
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides) {
+  toml::table document = parse_toml(text, name);
+  apply_overrides(document, overrides);
+  Scene s;
+  s.name = std::filesystem::path(name).stem().string();
+  s.source_path = std::move(name);
+  if (overrides.empty()) {
+    s.source_text = text;
+  } else {
+    std::ostringstream out;
+    out << document << '\n';
+    s.source_text = out.str();
+  }
+  const Table root(document, s,
+                   {"title", "solver", "grid", "material", "body", "fix", "symmetry", "grip", "load", "body_force",
+                    "damping", "crack", "contact", "cracks", "probe", "output", "limits"});
+  s.title = root.text("title", s.name);
+  read_solver(root, s);
+  read_bodies(root, s);
+  read_conditions(root, s);
+  read_cracks(root, s);
+  read_output(root, s);
+  return s;
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  Scene s = parse_scene(read_text_file(path, "the scene"), path, overrides);
+  check_scene(s);
+  return s;
+}
+
+}  // namespace riven

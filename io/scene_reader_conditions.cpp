@@ -1,0 +1,73 @@
+#include "io/scene_reader.hpp"
+
+namespace riven {
+
+namespace {
+
+FixedNodes read_fix(const Table& t, size_t i) {
+  FixedNodes f;
+  f.name = read_name(t, "fix", i);
+  if (!t.has("box"))
+    t.refuse("box", "missing key 'box'", "", "box = { lower = [\"0 mm\", \"0 mm\"], upper = [\"0 mm\", \"9 mm\"] }");
+  const Table box = t.table("box", {"lower", "upper"});
+  f.box = {box.vector("lower", dimension::length), box.vector("upper", dimension::length)};
+  if (f.box.lower.x > f.box.upper.x || f.box.lower.y > f.box.upper.y)
+    box.refuse("upper", "the box is upside down", "upper at least lower in x and y");
+  f.velocity[0] = t.function("velocity_x", dimension::speed);
+  f.velocity[1] = t.function("velocity_y", dimension::speed);
+  if (!f.velocity[0] && !f.velocity[1])
+    t.refuse(nullptr, "fixed nodes need a velocity", "velocity_x, velocity_y or both", "velocity_y = \"0 m/s\"");
+  return f;
+}
+
+SymmetryPlane read_symmetry(const Table& t, size_t i) {
+  SymmetryPlane p;
+  p.axis = static_cast<int>(t.one_of("axis", {"x", "y"}));
+  p.position = t.quantity("position", dimension::length, range::any);
+  p.solid = t.one_of("solid", {"above", "below"}) == 0 ? +1 : -1;
+  t.remember(fmt::format("symmetry {}", i));
+  return p;
+}
+
+Load read_load(const Table& t, size_t i) {
+  Load load;
+  load.name = read_name(t, "load", i);
+  load.kind = t.choice<Load::Kind>("kind");
+  load.region = read_region(t);
+  const bool force = load.kind == Load::Kind::force;
+  const char* mine[2] = {force ? "force_x" : "traction_x", force ? "force_y" : "traction_y"};
+  const char* other[2] = {force ? "traction_x" : "force_x", force ? "traction_y" : "force_y"};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (t.has(other[axis]))
+      t.refuse(other[axis], fmt::format("a load of kind {} has no such component", name_of(load.kind)),
+               fmt::format("{}, {}", mine[0], mine[1]), fmt::format("did you mean '{}'?", mine[axis]));
+    load.value[axis] = t.function(mine[axis], force ? dimension::force : dimension::stress).value_or(TimeFunction{});
+  }
+  if (!t.has(mine[0]) && !t.has(mine[1]))
+    t.refuse(nullptr, "the load has no value", fmt::format("{}, {} or both", mine[0], mine[1]));
+  if (force && t.has("edge"))
+    t.refuse("edge", "a force has no edge", "", "kind = \"traction\"");
+  if (!force)
+    load.edge = t.choice<Load::Edge>("edge");
+  return load;
+}
+
+}  // namespace
+
+void read_conditions(const Table& root, Scene& s) {
+  for (const Table& t : root.tables("fix", {"name", "box", "velocity_x", "velocity_y"}))
+    s.fixed.push_back(read_fix(t, s.fixed.size()));
+  for (const Table& t : root.tables("symmetry", {"axis", "position", "solid"}))
+    s.symmetry.push_back(read_symmetry(t, s.symmetry.size()));
+  for (const Table& t : root.tables("load", {"name", "kind", "rectangle", "disk", "polygon", "edge", "force_x",
+                                             "force_y", "traction_x", "traction_y"}))
+    s.loads.push_back(read_load(t, s.loads.size()));
+  const Table gravity = root.table("body_force", {"x", "y"});
+  s.body_force[0] = gravity.function("x", dimension::acceleration);
+  s.body_force[1] = gravity.function("y", dimension::acceleration);
+  const Table damping = root.table("damping", {"grid", "particle"});
+  s.grid_damping = damping.function("grid", dimension::rate);
+  s.particle_damping = damping.function("particle", dimension::rate);
+}
+
+}  // namespace riven

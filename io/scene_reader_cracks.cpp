@@ -1,0 +1,92 @@
+#include <filesystem>
+
+#include "io/crack_file.hpp"
+#include "io/scene_reader.hpp"
+
+namespace riven {
+
+namespace {
+
+/// A coefficient that one law needs: from the table, else from the law around it if that is the same, else missing.
+/// With any other law it would have no effect, so saying it is an error.
+template <class Read>
+double coefficient(const Table& t, const char* key, bool needed, ContactLaw law, bool inherited, double outer,
+                   Read read) {
+  if (t.has(key) && !needed)
+    t.refuse(key, fmt::format("the contact law '{}' has no {}", name_of(law), key), "",
+             fmt::format("law = \"{}\"",
+                         name_of(std::string_view(key) == "friction" ? ContactLaw::coulomb : ContactLaw::interface)));
+  if (!needed)
+    return 0;
+  return !t.has(key) && inherited ? outer : read();
+}
+
+ContactSettings read_contact(const Table& t, const ContactSettings& outer) {
+  ContactSettings c;
+  c.law = t.choice("law", std::optional(outer.law));
+  const bool same = c.law == outer.law, coulomb = c.law == ContactLaw::coulomb;
+  const bool interface = c.law == ContactLaw::interface;
+  c.friction = coefficient(t, "friction", coulomb, c.law, same && coulomb && outer.friction > 0, outer.friction,
+                           [&] { return t.number("friction", range::non_negative); });
+  const auto stiffness = [&](const char* key, double of_outer) {
+    return coefficient(t, key, interface, c.law, same && outer.normal_stiffness > 0, of_outer,
+                       [&] { return t.quantity(key, dimension::interface_stiffness, range::non_negative); });
+  };
+  c.normal_stiffness = stiffness("normal_stiffness", outer.normal_stiffness);
+  c.shear_stiffness = stiffness("shear_stiffness", outer.shear_stiffness);
+  return c;
+}
+
+void read_rules(const Table& t, ContactRules& rules) {
+  rules.detection = t.choice("detection", std::optional(rules.detection));
+  rules.v_sep = t.number("v_sep", range::positive, rules.v_sep);
+  rules.v_contact = t.number("v_contact", range::positive, rules.v_contact);
+  if (rules.v_sep > rules.v_contact)
+    t.refuse(t.has("v_sep") ? "v_sep" : "v_contact", "the faces would be apart and in contact at once",
+             "v_sep at most v_contact");
+}
+
+/// The cracks of a file, each named after the entry and its row.
+void read_rows(const Table& t, const CrackLine& like, Scene& s) {
+  const std::filesystem::path file = t.text("file");
+  const std::string path = (std::filesystem::path(s.source_path).parent_path() / file).string();
+  for (const CrackRow& row : read_crack_file(path, t.where("file"))) {
+    CrackLine crack = like;
+    crack.name += "_" + row.label;
+    crack.points = {row.from, row.to};
+    s.places["crack " + crack.name] = row.where + ": crack " + crack.name;
+    s.cracks.push_back(std::move(crack));
+  }
+}
+
+}  // namespace
+
+void read_cracks(const Table& root, Scene& s) {
+  const Table contact = root.table(
+      "contact", {"law", "friction", "normal_stiffness", "shear_stiffness", "detection", "v_sep", "v_contact"});
+  s.contact = read_contact(contact, s.contact);
+  read_rules(contact, s.contact_rules);
+  const Table motion = root.table("cracks", {"motion", "surface_update"});
+  s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
+  s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
+  size_t entry = 0;
+  for (const Table& t : root.tables("crack", {"name", "points", "file", "resolution", "contact"})) {
+    CrackLine crack;
+    crack.name = read_name(t, "crack", entry++);
+    crack.resolution = t.quantity("resolution", dimension::length, range::positive, crack.resolution, "particle size");
+    if (t.has("contact"))
+      crack.contact =
+          read_contact(t.table("contact", {"law", "friction", "normal_stiffness", "shear_stiffness"}), s.contact);
+    if (t.has("points") == t.has("file"))
+      t.refuse(nullptr, t.has("file") ? "the crack has points and a file" : "the crack has no points", "points or file",
+               "points = [[\"0 mm\", \"5 mm\"], [\"10 mm\", \"5 mm\"]]");
+    if (t.has("file")) {
+      read_rows(t, crack, s);
+    } else {
+      crack.points = t.points("points", 2);
+      s.cracks.push_back(std::move(crack));
+    }
+  }
+}
+
+}  // namespace riven

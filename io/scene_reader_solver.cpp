@@ -1,0 +1,41 @@
+#include "io/scene_reader.hpp"
+
+namespace riven {
+
+namespace {
+
+void read_grid(const Table& root, Scene& s) {
+  const Table t = root.table("grid", {"cell", "lower", "upper"});
+  s.cell = t.quantity("cell", dimension::length, range::positive);
+  s.grid = {t.vector("lower", dimension::length), t.vector("upper", dimension::length)};
+}
+
+}  // namespace
+
+void read_solver(const Table& root, Scene& s) {
+  const Table t =
+      root.table("solver", {"time", "plane", "thickness", "shape", "transfer", "order", "pic_fraction", "stress_update",
+                            "cfl", "dt_max", "crack_visibility", "scatter", "deterministic", "exec", "threads"});
+  s.end_time = t.quantity("time", dimension::time, range::positive);
+  s.plane = t.choice("plane", std::optional(s.plane));
+  s.thickness = t.quantity("thickness", dimension::length, range::positive, s.thickness);
+  s.shape = t.choice("shape", std::optional(s.shape));
+  s.transfer = t.choice("transfer", std::optional(s.transfer));
+  s.order = t.integer("order", 1, 100, s.order);
+  s.pic_fraction = t.number("pic_fraction", Range{0, 1}, s.pic_fraction);
+  s.stress_update = t.choice("stress_update", std::optional(s.stress_update));
+  s.cfl = t.number("cfl", Range{0, 2, true}, s.cfl);
+  s.dt_max = t.quantity("dt_max", dimension::time, range::positive, s.dt_max, "none");
+  s.crack_visibility = t.flag("crack_visibility", s.crack_visibility);
+  s.deterministic = t.flag("deterministic", s.deterministic);
+  s.scatter = t.choice("scatter", std::optional(s.deterministic ? ScatterKind::ordered : s.scatter));
+  if (s.deterministic && s.scatter != ScatterKind::ordered)
+    t.refuse("scatter", "a deterministic run needs ordered scatter", "ordered", "leave the key 'scatter' out");
+  s.exec = t.choice("exec", std::optional(s.exec));
+  s.threads = t.integer("threads", 0, 4096, s.threads);
+  read_grid(root, s);
+  s.limits.energy_growth =
+      root.table("limits", {"energy_growth"}).number("energy_growth", range::positive, s.limits.energy_growth);
+}
+
+}  // namespace riven

@@ -1,0 +1,180 @@
+// Each thing that can be wrong in a scene: the message names file, line and key, and says what was meant.
+#include <filesystem>
+
+#include "tests/io/scene_text.hpp"
+
+using namespace riven;
+using namespace riven::test;
+
+namespace {
+
+struct Wrong {
+  const char* name;
+  const char *from, *to;     ///< the change to the good scene
+  const char *where, *what;  ///< parts of the message
+  const char* hint;          ///< part of the rest of it: limit or suggestion
+};
+
+const Wrong cases[] = {
+    {"syntax", "time = \"2 ms\"", "time = 2 ms", "plate.toml:3", "not TOML", "quotes"},
+    {"unknown_key", "plane =", "plnae =", "plate.toml:4: solver.plnae", "unknown key 'plnae'", "'plane'"},
+    {"unknown_table", "[grid]", "[gird]", "plate.toml:5: gird", "unknown table 'gird'", "'grid'"},
+    {"unknown_array", "[[crack]]", "[[crak]]", "plate.toml:26: crak", "unknown key 'crak'", "'crack'"},
+    {"missing_time", "time = \"2 ms\"\n", "", "plate.toml:2: solver.time", "missing key 'time'", "add time"},
+    {"missing_cell", "cell = \"0.5 mm\"\n", "", "plate.toml:5: grid.cell", "missing key 'cell'", "add cell"},
+    {"missing_E", "E = \"2500 MPa\"\n", "", "plate.toml:9: material.0.E", "missing key 'E'", "add E"},
+    {"number_without_unit", "E = \"2500 MPa\"", "E = 2500", "plate.toml:11: material.0.E", "quantity of stress",
+     "\"2500 MPa\""},
+    {"wrong_type", "nu = 0.33", "nu = \"0.33\"", "plate.toml:12: material.0.nu", "expected a number", "without unit"},
+    {"not_an_array", "[[crack]]", "[crack]", "plate.toml:26: crack", "array of tables", "[[crack]]"},
+    {"wrong_pair", "lower = [\"-4 mm\", \"-4 mm\"]", "lower = [\"-4 mm\"]", "plate.toml:7: grid.lower", "array of two",
+     "mm"},
+    {"wrong_unit", "2500 MPa", "2500 Mpa", "plate.toml:11: material.0.E", "unknown unit 'Mpa'", "'MPa'"},
+    {"wrong_dimension", "\"1 g/cm^3\"", "\"1 g\"", "plate.toml:13: material.0.density", "not a unit of density",
+     "kg/m^3"},
+    {"unknown_choice", "plane = \"stress\"", "plane = \"stres\"", "plate.toml:4: solver.plane", "unknown name 'stres'",
+     "'stress'"},
+    {"unknown_material", "material = \"pmma\"", "material = \"pma\"", "plate.toml:16: body.0.material",
+     "unknown name 'pma'", "'pmma'"},
+    {"no_material", "material = \"pmma\"\n", "", "plate.toml:14: body.0.material", "missing key 'material'", "add"},
+    {"negative_density", "\"1 g/cm^3\"", "\"-1 g/cm^3\"", "plate.toml:13: material.0.density", "out of range",
+     "greater than 0"},
+    {"zero_E", "2500 MPa", "0 MPa", "plate.toml:11: material.0.E", "out of range", "greater than 0"},
+    {"nu_half", "0.33", "0.5", "plate.toml:12: material.0.nu", "out of range", "less than 0.5"},
+    {"nu_minus_one", "0.33", "-1.0", "plate.toml:12: material.0.nu", "out of range", "greater than -1"},
+    {"nu_nan", "0.33", "nan", "plate.toml:12: material.0.nu", "not finite", "less than 0.5"},
+    {"E_infinite", "2500 MPa", "inf MPa", "plate.toml:11: material.0.E", "not finite", "stress"},
+    {"zero_cell", "\"0.5 mm\"", "\"0 mm\"", "plate.toml:6: grid.cell", "out of range", "greater than 0"},
+    {"cfl_zero", "plane =", "cfl = 0\nplane =", "plate.toml:4: solver.cfl", "out of range", "at most 2"},
+    {"nine_per_cell", "material = \"pmma\"", "particles_per_cell = 9\nmaterial = \"pmma\"",
+     "plate.toml:16: body.0.particles_per_cell", "out of range", "from 1 to 8"},
+    {"half_per_cell", "material = \"pmma\"", "particles_per_cell = 1.5\nmaterial = \"pmma\"",
+     "plate.toml:16: body.0.particles_per_cell", "expected a whole number", ""},
+    {"no_region", "rectangle = { lower = [\"0 mm\", \"0 mm\"]", "holes = [] #", "plate.toml:14: body.0",
+     "region is missing", "rectangle, disk or polygon"},
+    {"two_regions", "material = \"pmma\"",
+     "disk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" }\nmaterial = \"pmma\"", "plate.toml:14: body.0",
+     "said twice", "rectangle, disk or polygon"},
+    {"flat_rectangle", "upper = [\"50 mm\", \"100 mm\"]", "upper = [\"50 mm\", \"0 mm\"]",
+     "plate.toml:17: body.0.rectangle.upper", "no area", "greater than lower"},
+    {"flat_polygon", "rectangle = { lower = [\"0 mm\", \"0 mm\"], upper = [\"50 mm\", \"100 mm\"] }",
+     "polygon = [[\"0 mm\", \"0 mm\"], [\"5 mm\", \"5 mm\"], [\"9 mm\", \"9 mm\"]]", "plate.toml:14: body.0", "no area",
+     "corners in order"},
+    {"tiny_body", "upper = [\"50 mm\", \"100 mm\"]", "upper = [\"50 mm\", \"0.2 mm\"]", "plate.toml:14: body.0",
+     "too small to hold a particle", "0.25 mm"},
+    {"small_grid", "upper = [\"54 mm\", \"104 mm\"]", "upper = [\"54 mm\", \"90 mm\"]", "plate.toml:14: body.0",
+     "grid is too small", "(54, 90) mm"},
+    {"grip_leaves", "\"1 m/s\"", "\"10 m/s\"", "plate.toml:22: grip.0", "moves out of it", "larger grid"},
+    {"grid_upside_down", "upper = [\"54 mm\", \"104 mm\"]", "upper = [\"54 mm\", \"-10 mm\"]",
+     "plate.toml:8: grid.upper", "no area", "greater than lower"},
+    {"broken_cells", "upper = [\"54 mm\", \"104 mm\"]", "upper = [\"54.2 mm\", \"104 mm\"]", "plate.toml:8: grid.upper",
+     "not a whole number of cells", "(54, 104) mm"},
+    {"huge_grid", "cell = \"0.5 mm\"", "cell = \"1 nm\"", "plate.toml:6: grid.cell", "grid is too large",
+     "larger cells"},
+    {"off_line", "position = \"0 mm\"", "position = \"0.2 mm\"", "plate.toml:18: symmetry.0", "not on a grid line",
+     "\"0 mm\""},
+    {"outside_plane", "position = \"0 mm\"", "position = \"-5 mm\"", "plate.toml:18: symmetry.0", "not on a grid line",
+     "up to 54 mm"},
+    {"duplicate_material", "[[body]]",
+     "[[material]]\nname = \"pmma\"\nE = \"1 Pa\"\nnu = 0\ndensity = \"1 kg/m^3\"\n[[body]]",
+     "plate.toml:14: material.1", "same name", "a name for each"},
+    {"bad_name", "name = \"edge\"", "name = \"a,b\"", "plate.toml:27: crack.0.name", "character", "letters"},
+    {"coulomb_without_friction", ", friction = 0.3", "", "plate.toml:29: crack.0.contact.friction",
+     "missing key 'friction'", "add friction"},
+    {"friction_without_coulomb", "law = \"coulomb\"", "law = \"stick\"", "plate.toml:29: crack.0.contact.friction",
+     "'stick' has no friction", "coulomb"},
+    {"interface_without_stiffness", "law = \"coulomb\", friction = 0.3", "law = \"interface\"",
+     "plate.toml:29: crack.0.contact.normal_stiffness", "missing key 'normal_stiffness'", "add"},
+    {"interface_of_no_stiffness", "law = \"coulomb\", friction = 0.3",
+     "law = \"interface\", normal_stiffness = \"0 Pa/m\", shear_stiffness = \"1 Pa/m\"", "plate.toml:26: crack.0",
+     "normal stiffness", "greater than 0"},
+    {"crack_outside", "points = [[\"-1 mm\", \"50 mm\"], [\"25 mm\", \"50 mm\"]]",
+     "points = [[\"-1 mm\", \"50 mm\"], [\"-1 mm\", \"70 mm\"]]", "plate.toml:26: crack.0",
+     "no part of the crack lies in a body", "through a body"},
+    {"crack_off_grid", "[\"-1 mm\", \"50 mm\"]", "[\"-9 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
+     "the crack leaves it", "larger grid"},
+    {"crack_without_length", "[\"-1 mm\", \"50 mm\"]", "[\"25 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
+     "without length", "differ"},
+    {"crack_of_one_point", ", [\"25 mm\", \"50 mm\"]", "", "plate.toml:28: crack.0.points", "at least 2 points", ""},
+    {"crack_without_points", "points = [[\"-1 mm\", \"50 mm\"], [\"25 mm\", \"50 mm\"]]\n", "",
+     "plate.toml:26: crack.0", "no points", "points or file"},
+    {"grip_without_velocity", "velocity_y = { value = \"1 m/s\", shape = \"sin(pi*t/tr)\", tr = \"2 ms\" }\n", "",
+     "plate.toml:22: grip.0", "needs a velocity", "velocity_x"},
+    {"shape_missing", "shape = \"sin", "shpe = \"sin", "plate.toml:25: grip.0.velocity_y", "needs the key 'shape'",
+     "sin(t/tr)"},
+    {"shape_unreadable", "sin(pi*t/tr)", "sin(pi*t/ts)", "plate.toml:25: grip.0.velocity_y", "cannot be read", "'t"},
+    {"shape_not_finite", "sin(pi*t/tr)", "tr/t", "plate.toml:25: grip.0.velocity_y", "not finite at t = 0", "end"},
+    {"time_of_wrong_unit", "tr = \"2 ms\"", "tr = \"2 mm\"", "plate.toml:25: grip.0.velocity_y", "not a unit of time",
+     "did you mean 'ms'"},
+};
+
+}  // namespace
+
+class BadScene : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(BadScene, SaysFileLineKeyAndWhatIsAllowed) {
+  const Wrong& w = GetParam();
+  const Trouble t = trouble_of(changed(w.from, w.to));
+  EXPECT_EQ(t.code, Exit::bad_input);
+  EXPECT_NE(t.where.find(w.where), std::string::npos) << Error(t).what();
+  EXPECT_NE(t.what.find(w.what), std::string::npos) << Error(t).what();
+  EXPECT_NE((t.limit + "\n" + t.suggestion).find(w.hint), std::string::npos) << Error(t).what();
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, BadScene, ::testing::ValuesIn(cases),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadSceneParts, EachIsRefused) {
+  struct Extra {
+    const char *text, *what, *hint;
+  };
+  const Extra extras[] = {
+      {"[[body]]\nname = \"plate\"\nmaterial = \"pmma\"\ndisk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" }\n",
+       "same name", "each"},
+      {"[[fix]]\nbox = { lower = [\"0.1 mm\", \"0 mm\"], upper = [\"0.2 mm\", \"1 mm\"] }\nvelocity_x = \"0 m/s\"\n",
+       "no grid node", "grid line"},
+      {"[[load]]\nkind = \"force\"\nrectangle = { lower = [\"51 mm\", \"0 mm\"], upper = [\"52 mm\", \"9 mm\"] }\n"
+       "force_x = \"1 N\"\n",
+       "lies on no body", "particles"},
+      {"[[load]]\nkind = \"force\"\nrectangle = { lower = [\"1 mm\", \"0 mm\"], upper = [\"2 mm\", \"9 mm\"] }\n"
+       "traction_x = \"1 MPa\"\n",
+       "no such component", "'force_x'"},
+      {"[[load]]\nkind = \"pressure\"\n", "unknown name 'pressure'", "force, traction"},
+      {"[[probe]]\nkind = \"crack_opening\"\ntarget = \"egde\"\n", "unknown name 'egde'", "'edge'"},
+      {"[[probe]]\nkind = \"reaction\"\ntarget = \"tob\"\n", "unknown name 'tob'", "'top'"},
+      {"[[probe]]\nkind = \"displacement\"\n", "missing key 'point'", "add point"},
+      {"[[probe]]\nkind = \"velocity\"\npoint = [\"-3 mm\", \"0 mm\"]\n", "lies on no body", "in a body"},
+      {"[[probe]]\nkind = \"stress\"\npoint = [\"3 mm\", \"0 mm\"]\naxis = \"x\"\n", "has no axis", ""},
+      {"[output]\nfields = [\"fringes\"]\n", "unknown field 'fringes'", "'fringe'"},
+      {"[output]\nfields = [\"fringe\"]\n", "needs its constant", "fringe_constant"},
+      {"[contact]\nv_sep = 1.2\n", "apart and in contact", "at most v_contact"},
+      {"[damping]\ngrid = \"80 ms\"\n", "not a unit of rate", "1/ms"},
+      {"[limits]\nenergy_growth = inf\n", "not finite", "greater than 0"},
+  };
+  for (const Extra& e : extras) {
+    const Trouble t = trouble_of(good_scene + e.text);
+    EXPECT_EQ(t.code, Exit::bad_input);
+    EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
+    EXPECT_NE(t.what.find(e.what), std::string::npos) << Error(t).what();
+    EXPECT_NE((t.limit + "\n" + t.suggestion).find(e.hint), std::string::npos) << Error(t).what();
+  }
+}
+
+TEST(BadSceneFile, IsAFileError) {
+  const auto code = [](const std::string& path) {
+    try {
+      read_scene(path);
+    } catch (const Error& e) {
+      EXPECT_NE(e.trouble().value.find(path), std::string::npos);
+      return e.code();
+    }
+    return Exit::done;
+  };
+  EXPECT_EQ(code("no/such/scene.toml"), Exit::file);
+  EXPECT_EQ(code(std::filesystem::temp_directory_path().string()), Exit::file);
+  EXPECT_EQ(code("/dev/zero"), Exit::file);
+}
+
+TEST(BadSceneFile, EmptySceneSaysWhatIsMissing) {
+  EXPECT_NE(trouble_of("").what.find("missing key 'time'"), std::string::npos);
+}

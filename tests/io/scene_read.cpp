@@ -1,0 +1,228 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "tests/io/scene_text.hpp"
+
+using namespace riven;
+using namespace riven::test;
+
+TEST(ReadScene, QuantitiesInSi) {
+  const Scene s = read(good_scene);
+  EXPECT_EQ(s.name, "plate");
+  EXPECT_EQ(s.title, "plate");
+  EXPECT_EQ(s.source_text, good_scene);
+  EXPECT_DOUBLE_EQ(s.end_time, 2e-3);
+  EXPECT_EQ(s.plane, Plane::stress);
+  EXPECT_DOUBLE_EQ(s.cell, 5e-4);
+  EXPECT_DOUBLE_EQ(s.grid.lower.x, -4e-3);
+  EXPECT_DOUBLE_EQ(s.grid.upper.y, 0.104);
+  ASSERT_EQ(s.materials.size(), 1u);
+  EXPECT_DOUBLE_EQ(s.materials[0].E, 2.5e9);
+  EXPECT_DOUBLE_EQ(s.materials[0].nu, 0.33);
+  EXPECT_DOUBLE_EQ(s.materials[0].density, 1000);
+  ASSERT_EQ(s.bodies.size(), 1u);
+  EXPECT_EQ(s.bodies[0].material, 0);
+  EXPECT_DOUBLE_EQ(std::get<Rectangle>(s.bodies[0].region).upper.y, 0.1);
+  ASSERT_EQ(s.symmetry.size(), 1u);
+  EXPECT_EQ(s.symmetry[0].axis, 0);
+  EXPECT_EQ(s.symmetry[0].solid, +1);
+  ASSERT_EQ(s.grips.size(), 1u);
+  EXPECT_FALSE(s.grips[0].velocity[0]);
+  ASSERT_TRUE(s.grips[0].velocity[1]);
+  EXPECT_NEAR((*s.grips[0].velocity[1])(5e-4), std::sin(std::numbers::pi / 4), 1e-15);
+  EXPECT_EQ(s.grips[0].velocity[1]->text, "1 m/s * (sin(pi*t/tr)), tr = 2 ms");
+  ASSERT_EQ(s.cracks.size(), 1u);
+  EXPECT_DOUBLE_EQ(s.cracks[0].points[1].x, 0.025);
+  ASSERT_TRUE(s.cracks[0].contact);
+  EXPECT_EQ(s.cracks[0].contact->law, ContactLaw::coulomb);
+  EXPECT_DOUBLE_EQ(s.cracks[0].contact->friction, 0.3);
+  EXPECT_EQ(s.contact.law, ContactLaw::frictionless);
+}
+
+TEST(ReadScene, EveryPart) {
+  const Scene s = read(good_scene + R"toml(
+[[material]]
+name = "rubber"
+law = "neo_hookean"
+E = "0.1 MPa"
+nu = 0.49
+density = "1.5 g/cm^3"
+[[body]]
+name = "disk"
+material = "rubber"
+disk = { center = ["25 mm", "20 mm"], radius = "10 mm" }
+holes = [ { disk = { center = ["25 mm", "20 mm"], radius = "2 mm" } } ]
+particles_per_cell = 3
+thickness = "6 mm"
+velocity = ["1000 mm/s", "-2 m/s"]
+spin = "60 rpm"
+[[fix]]
+name = "ground"
+box = { lower = ["0 mm", "0 mm"], upper = ["50 mm", "0 mm"] }
+velocity_y = "0 m/s"
+[[load]]
+name = "pull"
+kind = "traction"
+rectangle = { lower = ["49 mm", "0 mm"], upper = ["50 mm", "10 mm"] }
+edge = "right"
+traction_x = "5 MPa"
+[[load]]
+kind = "force"
+polygon = [["0 mm", "0 mm"], ["1 mm", "0 mm"], ["0 mm", "1 mm"]]
+force_y = { value = "0.4 mN", shape = "min(t/ramp, 1)", ramp = "10 us" }
+[body_force]
+y = "-9.81 m/s^2"
+[damping]
+grid = "80 1/ms"
+[contact]
+law = "interface"
+normal_stiffness = "2 MPa/mm"
+shear_stiffness = "1 MPa/mm"
+detection = "volume"
+v_sep = 0.8
+[cracks]
+motion = "center_of_mass"
+surface_update = "flip"
+[[probe]]
+name = "mouth"
+kind = "crack_opening"
+target = "edge"
+[[probe]]
+name = "s"
+kind = "stress"
+point = ["1 mm", "2 mm"]
+component = "xy"
+[[probe]]
+name = "pull_force"
+kind = "reaction"
+target = "top"
+[output]
+frames = 7
+history_every = "1 us"
+sidecar = "vtp"
+fields = ["fringe"]
+fringe_constant = "0.0889 1/MPa"
+[limits]
+energy_growth = 0.1
+)toml");
+  EXPECT_EQ(s.materials[1].law, LawKind::neo_hookean);
+  const Body& b = s.bodies[1];
+  EXPECT_EQ(b.material, 1);
+  EXPECT_DOUBLE_EQ(std::get<Disk>(b.region).radius, 0.01);
+  ASSERT_EQ(b.holes.size(), 1u);
+  EXPECT_EQ(b.particles_per_cell, 3);
+  EXPECT_DOUBLE_EQ(b.thickness, 6e-3);
+  EXPECT_DOUBLE_EQ(b.velocity.x, 1);
+  EXPECT_DOUBLE_EQ(b.velocity.y, -2);
+  EXPECT_DOUBLE_EQ(b.spin, 2 * std::numbers::pi);
+  ASSERT_EQ(s.fixed.size(), 1u);
+  EXPECT_FALSE(s.fixed[0].velocity[0]);
+  EXPECT_EQ((*s.fixed[0].velocity[1])(1), 0);
+  ASSERT_EQ(s.loads.size(), 2u);
+  EXPECT_EQ(s.loads[0].edge, Load::Edge::right);
+  EXPECT_DOUBLE_EQ(s.loads[0].value[0](0), 5e6);
+  EXPECT_EQ(s.loads[0].value[1](0), 0);
+  EXPECT_EQ(s.loads[1].name, "load_1");
+  EXPECT_DOUBLE_EQ(s.loads[1].value[1](5e-6), 2e-4);
+  EXPECT_FALSE(s.body_force[0]);
+  EXPECT_DOUBLE_EQ((*s.body_force[1])(0), -9.81);
+  EXPECT_DOUBLE_EQ((*s.grid_damping)(0), 8e4);
+  EXPECT_FALSE(s.particle_damping);
+  EXPECT_EQ(s.contact.law, ContactLaw::interface);
+  EXPECT_DOUBLE_EQ(s.contact.normal_stiffness, 2e9);
+  EXPECT_DOUBLE_EQ(s.contact.shear_stiffness, 1e9);
+  EXPECT_EQ(s.contact_rules.detection, ContactDetection::volume);
+  EXPECT_DOUBLE_EQ(s.contact_rules.v_sep, 0.8);
+  EXPECT_DOUBLE_EQ(s.contact_rules.v_contact, 1.1);
+  EXPECT_EQ(s.crack_motion, CrackMotion::center_of_mass);
+  EXPECT_EQ(s.surface_update, SurfaceUpdate::flip);
+  ASSERT_EQ(s.probes.size(), 3u);
+  EXPECT_EQ(s.probes[0].target, "edge");
+  EXPECT_EQ(s.probes[1].axis, 0);
+  EXPECT_EQ(s.probes[1].axis2, 1);
+  EXPECT_EQ(s.probes[2].axis, 1);
+  EXPECT_EQ(s.output.frames, 7);
+  EXPECT_DOUBLE_EQ(s.output.history_every, 1e-6);
+  EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
+  EXPECT_DOUBLE_EQ(s.output.fringe_constant, 0.0889e-6);
+  EXPECT_DOUBLE_EQ(s.limits.energy_growth, 0.1);
+}
+
+TEST(ReadScene, WhatIsNotSaidIsListedWithItsDefault) {
+  const Scene s = read(good_scene);
+  const auto said = [&](const std::string& line) {
+    return std::find(s.defaults.begin(), s.defaults.end(), line) != s.defaults.end();
+  };
+  EXPECT_TRUE(said("solver.cfl = 0.4"));
+  EXPECT_TRUE(said("solver.stress_update = usavg"));
+  EXPECT_TRUE(said("solver.thickness = 0.001 m"));
+  EXPECT_TRUE(said("solver.dt_max = none"));
+  EXPECT_TRUE(said("body.0.particles_per_cell = 2"));
+  EXPECT_TRUE(said("contact.law = frictionless"));
+  EXPECT_TRUE(said("cracks.surface_update = xpic"));
+  EXPECT_TRUE(said("output.frames = 20"));
+  EXPECT_FALSE(said("solver.plane = strain")) << "it was said: stress";
+  EXPECT_EQ(s.places.at("grid.cell"), "plate.toml:6: grid.cell");
+  EXPECT_EQ(s.places.at("crack edge"), "plate.toml:26: crack.0");
+}
+
+TEST(ReadScene, DeterministicMeansOrderedScatter) {
+  EXPECT_EQ(read(good_scene, {"solver.deterministic=true"}).scatter, ScatterKind::ordered);
+  EXPECT_EQ(read(good_scene).scatter, ScatterKind::atomic);
+  const Trouble t = trouble_of(good_scene, {"solver.deterministic=true", "solver.scatter=atomic"});
+  EXPECT_NE(t.what.find("deterministic"), std::string::npos);
+}
+
+TEST(ReadScene, CracksFromAFile) {
+  const auto folder = std::filesystem::temp_directory_path() / ("riven_cracks_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto put = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  put("plain.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,10\n\n30,30,31.5,32\n");
+  put("labelled.csv", "# ends\r\ncrack,x_start (mm),y_start (mm),x_end (mm),y_end (mm)\r\n7,10,10,20,10\r\n");
+  put("outside.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,10\n51,30,52,30\n");
+  put("short.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20\n");
+  put("word.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,ten\n");
+  put("unitless.csv", "x0,y0,x1,y1\n10,10,20,10\n");
+  put("column.csv", "x0_mm,y0_mm,x1_mm,yy1_mm\n10,10,20,10\n");
+  put("empty.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n");
+  const auto scene = [&](const std::string& file) {
+    put("scene.toml", changed("points = [[\"-1 mm\", \"50 mm\"], [\"25 mm\", \"50 mm\"]]", "file = \"" + file + "\""));
+    return (folder / "scene.toml").string();
+  };
+  const auto trouble = [&](const std::string& file) {
+    try {
+      read_scene(scene(file));
+    } catch (const Error& e) {
+      return e.trouble();
+    }
+    return Trouble{Exit::done, "", "", "", "", ""};
+  };
+
+  const Scene plain = read_scene(scene("plain.csv"));
+  ASSERT_EQ(plain.cracks.size(), 2u);
+  EXPECT_EQ(plain.cracks[1].name, "edge_2");
+  EXPECT_DOUBLE_EQ(plain.cracks[1].points[1].x, 0.0315);
+  EXPECT_DOUBLE_EQ(plain.cracks[1].contact->friction, 0.3);
+  const Scene labelled = read_scene(scene("labelled.csv"));
+  ASSERT_EQ(labelled.cracks.size(), 1u);
+  EXPECT_EQ(labelled.cracks[0].name, "edge_7");
+  EXPECT_DOUBLE_EQ(labelled.cracks[0].points[0].y, 0.01);
+
+  EXPECT_NE(trouble("outside.csv").where.find("outside.csv:3"), std::string::npos);
+  EXPECT_NE(trouble("short.csv").what.find("3 values"), std::string::npos);
+  EXPECT_NE(trouble("word.csv").where.find("word.csv:2"), std::string::npos);
+  EXPECT_NE(trouble("unitless.csv").what.find("no unit"), std::string::npos);
+  EXPECT_NE(trouble("column.csv").suggestion.find("y1"), std::string::npos);
+  EXPECT_EQ(trouble("empty.csv").code, Exit::bad_input);
+  const Trouble missing = trouble("none.csv");
+  EXPECT_EQ(missing.code, Exit::file);
+  EXPECT_NE(missing.where.find("scene.toml:28: crack.0.file"), std::string::npos) << missing.where;
+  EXPECT_NE(missing.value.find("none.csv"), std::string::npos);
+  EXPECT_EQ(trouble(".").code, Exit::file);
+  std::filesystem::remove_all(folder);
+}
