@@ -33,9 +33,11 @@ class Array {
   Array(const Array& o) { *this = o; }
   Array(Array&& o) noexcept { swap(o); }
   Array& operator=(const Array& o) {
-    if (this == &o) return *this;
+    if (this == &o)
+      return *this;
     resize(o.size_);
-    if (size_) std::memcpy(static_cast<void*>(data_), o.data_, static_cast<size_t>(size_) * sizeof(T));
+    if (size_)
+      std::memcpy(static_cast<void*>(data_), o.data_, static_cast<size_t>(size_) * sizeof(T));
     return *this;
   }
   Array& operator=(Array&& o) noexcept { return swap(o), *this; }
@@ -47,9 +49,11 @@ class Array {
       const long cap = n > capacity_ + capacity_ / 2 ? n : capacity_ + capacity_ / 2;
       const size_t bytes = (static_cast<size_t>(cap + padding) * sizeof(T) + 63) / 64 * 64;
       T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes));
-      if (!fresh) throw std::bad_alloc();
+      if (!fresh)
+        throw std::bad_alloc();
       const size_t keep = static_cast<size_t>(size_) * sizeof(T);
-      if (size_) std::memcpy(static_cast<void*>(fresh), data_, keep);
+      if (size_)
+        std::memcpy(static_cast<void*>(fresh), data_, keep);
       std::memset(reinterpret_cast<char*>(fresh) + keep, 0, bytes - keep);
       std::free(data_);
       data_ = fresh;
@@ -61,7 +65,8 @@ class Array {
   }
   void clear() { resize(0); }
   void zero() {
-    if (size_) std::memset(static_cast<void*>(data_), 0, static_cast<size_t>(size_) * sizeof(T));
+    if (size_)
+      std::memset(static_cast<void*>(data_), 0, static_cast<size_t>(size_) * sizeof(T));
   }
   void swap(Array& o) noexcept {
     std::swap(data_, o.data_);

@@ -32,9 +32,11 @@ RIVEN_INLINE void for_lanes(int count, Body&& body) {
 #if !defined(__CUDACC__)
 #pragma omp simd
 #endif
-    for (int k = 0; k < lanes; ++k) body(k);
+    for (int k = 0; k < lanes; ++k)
+      body(k);
   } else {
-    for (int k = 0; k < count; ++k) body(k);
+    for (int k = 0; k < count; ++k)
+      body(k);
   }
 }
 

@@ -10,17 +10,18 @@
 
 namespace riven::exec {
 
-namespace detail {
-
+/// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
 template <class F>
 void launch(const Space& space, long n, const F& f) {
   switch (space.kind()) {
     case Kind::serial:
-      for (long i = 0; i < n; ++i) f(i);
+      for (long i = 0; i < n; ++i)
+        f(i);
       break;
     case Kind::openmp:
 #pragma omp parallel for schedule(dynamic, 1) num_threads(space.threads())
-      for (long i = 0; i < n; ++i) f(i);
+      for (long i = 0; i < n; ++i)
+        f(i);
       break;
     case Kind::stdpar:
       // par, not par_unseq: kernels may use atomics
@@ -28,8 +29,6 @@ void launch(const Space& space, long n, const F& f) {
       break;
   }
 }
-
-}  // namespace detail
 
 /// Items that one task takes when a range of small items is cut into chunks. Fixed, so that sums over
 /// chunks do not depend on the number of threads.
@@ -39,7 +38,7 @@ inline constexpr long chunk = 2048;
 template <class F>
 void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
   Stopwatch watch(space.timers(), label);
-  detail::launch(space, n, f);
+  launch(space, n, f);
 }
 
 /// f(i) for i in [0, n); items are small (a node, a particle) and are taken in chunks.
@@ -47,7 +46,8 @@ template <class F>
 void parallel_for(const Space& space, const char* label, long n, const F& f) {
   parallel_tasks(space, label, (n + chunk - 1) / chunk, [&](long c) {
     const long end = std::min(n, (c + 1) * chunk);
-    for (long i = c * chunk; i < end; ++i) f(i);
+    for (long i = c * chunk; i < end; ++i)
+      f(i);
   });
 }
 
@@ -60,11 +60,13 @@ T parallel_reduce(const Space& space, const char* label, long n, const F& f) {
   parallel_tasks(space, label, chunks, [&, p = part.data()](long c) {
     T sum{};
     const long end = std::min(n, (c + 1) * chunk);
-    for (long i = c * chunk; i < end; ++i) sum += f(i);
+    for (long i = c * chunk; i < end; ++i)
+      sum += f(i);
     p[c] = sum;
   });
   T total{};
-  for (const T& t : part) total += t;
+  for (const T& t : part)
+    total += t;
   return total;
 }
 

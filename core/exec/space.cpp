@@ -12,7 +12,9 @@ Space::Space(Kind kind, int threads) : kind_(kind), threads_(kind == Kind::seria
     limit_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
 }
 
-Space::~Space() { delete static_cast<tbb::global_control*>(limit_); }
+Space::~Space() {
+  delete static_cast<tbb::global_control*>(limit_);
+}
 
 const char* name(Kind kind) {
   switch (kind) {
@@ -25,10 +27,13 @@ const char* name(Kind kind) {
 
 bool parse(const std::string& text, Kind& kind) {
   for (Kind k : {Kind::serial, Kind::openmp, Kind::stdpar})
-    if (text == name(k)) return kind = k, true;
+    if (text == name(k))
+      return kind = k, true;
   return false;
 }
 
-int available_threads() { return omp_get_num_procs(); }
+int available_threads() {
+  return omp_get_num_procs();
+}
 
 }  // namespace riven::exec

@@ -17,7 +17,8 @@ class Timers {
  public:
   Timer& row(const char* label) {
     for (Timer& t : rows_)
-      if (t.label == label) return t;
+      if (t.label == label)
+        return t;
     rows_.push_back({label});
     return rows_.back();
   }

@@ -113,7 +113,8 @@ struct NeoHookean {
   RIVEN_INLINE Real energy(const LawState<Real>& p) const {
     const Real J2 = det(p.F), t = thickness_squared(J2), JJ = J2 * J2 * t, logJ = Real(0.5) * std::log(JJ);
     const Real trace = p.F.xx * p.F.xx + p.F.xy * p.F.xy + p.F.yx * p.F.yx + p.F.yy * p.F.yy + t;
-    return Real(0.5) * mu * (trace - Real(3)) - mu * logJ + Real(0.25) * lambda * (JJ - Real(1)) - Real(0.5) * lambda * logJ;
+    return Real(0.5) * mu * (trace - Real(3)) - mu * logJ + Real(0.25) * lambda * (JJ - Real(1)) -
+           Real(0.5) * lambda * logJ;
   }
   /// Bound of the acoustic tensor's largest root per present density: (lambda J^2 + mu + mu b_max).
   RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
@@ -139,7 +140,8 @@ struct AnyElastic {
   bool is_linear;
 
   AnyElastic() = default;
-  AnyElastic(const Material& m, Plane plane) : linear(m, plane), neo(m, plane), is_linear(m.law == LawKind::linear_elastic) {}
+  AnyElastic(const Material& m, Plane plane)
+      : linear(m, plane), neo(m, plane), is_linear(m.law == LawKind::linear_elastic) {}
 
   RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
     LawState<Real> a = p;
@@ -150,9 +152,15 @@ struct AnyElastic {
     p.xy = is_linear ? a.xy : p.xy;
   }
   RIVEN_INLINE Real energy(const LawState<Real>& p) const { return is_linear ? linear.energy(p) : neo.energy(p); }
-  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const { return is_linear ? linear.wave_speed(p) : neo.wave_speed(p); }
-  RIVEN_INLINE Real thickness_ratio(Real J) const { return is_linear ? linear.thickness_ratio(J) : neo.thickness_ratio(J); }
-  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return is_linear ? linear.stress_zz(p) : neo.stress_zz(p); }
+  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
+    return is_linear ? linear.wave_speed(p) : neo.wave_speed(p);
+  }
+  RIVEN_INLINE Real thickness_ratio(Real J) const {
+    return is_linear ? linear.thickness_ratio(J) : neo.thickness_ratio(J);
+  }
+  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const {
+    return is_linear ? linear.stress_zz(p) : neo.stress_zz(p);
+  }
 };
 
 }  // namespace riven

@@ -12,11 +12,13 @@ struct QuadStruct {
   RIVEN_FN Real operator[](int i) const { return c[i]; }
   friend RIVEN_FN QuadStruct operator+(QuadStruct a, const QuadStruct& b) { return a += b; }
   RIVEN_FN QuadStruct& operator+=(const QuadStruct& b) {
-    for (int i = 0; i < 4; ++i) c[i] += b.c[i];
+    for (int i = 0; i < 4; ++i)
+      c[i] += b.c[i];
     return *this;
   }
   friend RIVEN_FN QuadStruct operator*(Real s, QuadStruct a) {
-    for (int i = 0; i < 4; ++i) a.c[i] *= s;
+    for (int i = 0; i < 4; ++i)
+      a.c[i] *= s;
     return a;
   }
 };

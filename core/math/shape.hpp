@@ -100,7 +100,8 @@ struct BSpline {
 template <class Shape, int Dim>
 inline constexpr int neighbours = [] {
   int n = 1;
-  for (int d = 0; d < Dim; ++d) n *= Shape::width;
+  for (int d = 0; d < Dim; ++d)
+    n *= Shape::width;
   return n;
 }();
 

@@ -19,11 +19,19 @@ struct Vec2 {
   friend RIVEN_INLINE bool operator==(Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; }
 };
 
-RIVEN_INLINE double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+RIVEN_INLINE double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// z component of a x b.
-RIVEN_INLINE double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-RIVEN_INLINE double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
+RIVEN_INLINE double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+RIVEN_INLINE double norm(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
 /// a turned by +90 degrees.
-RIVEN_INLINE Vec2 turned(Vec2 a) { return {-a.y, a.x}; }
+RIVEN_INLINE Vec2 turned(Vec2 a) {
+  return {-a.y, a.x};
+}
 
 }  // namespace riven

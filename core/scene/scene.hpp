@@ -65,7 +65,7 @@ struct Material {
 
 struct Body {
   std::string name;
-  int material = 0;            ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
   Region region;
   std::vector<Region> holes;
   int particles_per_cell = 2;  ///< along each axis
@@ -83,9 +83,9 @@ struct FixedNodes {
 
 /// A symmetry plane: no normal velocity on the grid line, mirror images behind it.
 struct SymmetryPlane {
-  int axis = 0;        ///< 0: the plane x = position, 1: the plane y = position
-  double position = 0; ///< m; on a grid line
-  int solid = +1;      ///< the side on which the body lies: +1 above, -1 below
+  int axis = 0;         ///< 0: the plane x = position, 1: the plane y = position
+  double position = 0;  ///< m; on a grid line
+  int solid = +1;       ///< the side on which the body lies: +1 above, -1 below
 };
 
 /// A block of rigid particles that moves with a prescribed velocity and imposes it on every field of
@@ -104,16 +104,16 @@ struct Load {
   enum class Edge { left, right, bottom, top };
   std::string name;
   Kind kind = Kind::force;
-  Region region;             ///< which particles (force; and traction, as the part of the edge that is loaded)
-  Edge edge = Edge::right;   ///< traction only: particles that have no neighbour on this side
-  TimeFunction value[2];     ///< N in all (force), or Pa (traction)
+  Region region;            ///< which particles (force; and traction, as the part of the edge that is loaded)
+  Edge edge = Edge::right;  ///< traction only: particles that have no neighbour on this side
+  TimeFunction value[2];    ///< N in all (force), or Pa (traction)
 };
 
 struct ContactSettings {
   ContactLaw law = ContactLaw::frictionless;
-  double friction = 0;           ///< Coulomb
-  double normal_stiffness = 0;   ///< interface, Pa/m
-  double shear_stiffness = 0;    ///< interface, Pa/m
+  double friction = 0;          ///< Coulomb
+  double normal_stiffness = 0;  ///< interface, Pa/m
+  double shear_stiffness = 0;   ///< interface, Pa/m
 };
 
 struct ContactRules {
@@ -141,8 +141,8 @@ struct Probe {
 };
 
 struct Output {
-  int frames = 20;             ///< frames after the first, evenly over the run
-  double history_every = 0;    ///< s; 0 means 1/500 of the run
+  int frames = 20;           ///< frames after the first, evenly over the run
+  double history_every = 0;  ///< s; 0 means 1/500 of the run
   Sidecar sidecar = Sidecar::none;
   std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
   double fringe_constant = 0;       ///< 1/Pa (seed 002, eq. 23)
@@ -154,14 +154,14 @@ struct Limits {
 };
 
 struct Scene {
-  std::string name;         ///< file name without its ending
+  std::string name;  ///< file name without its ending
   std::string title;
   std::string source_path;
   std::string source_text;  ///< the scene as read, with --set applied
 
   // solver
-  double end_time = 0;      ///< s
-  double cell = 0;          ///< edge of the square cells, m
+  double end_time = 0;  ///< s
+  double cell = 0;      ///< edge of the square cells, m
   Plane plane = Plane::strain;
   double thickness = 1e-3;  ///< m
   ShapeFunction shape = ShapeFunction::ugimp;
@@ -173,12 +173,12 @@ struct Scene {
   double dt_max = std::numeric_limits<double>::infinity();
   bool crack_visibility = false;  ///< negative control: particles do not see nodes across a crack
   ScatterKind scatter = ScatterKind::atomic;
-  bool deterministic = false;     ///< same bits on any thread count (implies ordered scatter)
+  bool deterministic = false;  ///< same bits on any thread count (implies ordered scatter)
   exec::Kind exec = exec::Kind::openmp;
-  int threads = 0;                ///< 0 means all cores
+  int threads = 0;  ///< 0 means all cores
 
   // grid
-  Rectangle grid;                 ///< its walls; on multiples of `cell` from the lower corner
+  Rectangle grid;  ///< its walls; on multiples of `cell` from the lower corner
 
   // effects
   std::vector<Material> materials;
@@ -187,9 +187,9 @@ struct Scene {
   std::vector<SymmetryPlane> symmetry;
   std::vector<Grip> grips;
   std::vector<Load> loads;
-  std::optional<TimeFunction> body_force[2];    ///< acceleration, m/s^2
-  std::optional<TimeFunction> grid_damping;     ///< 1/s
-  std::optional<TimeFunction> particle_damping; ///< 1/s
+  std::optional<TimeFunction> body_force[2];     ///< acceleration, m/s^2
+  std::optional<TimeFunction> grid_damping;      ///< 1/s
+  std::optional<TimeFunction> particle_damping;  ///< 1/s
   std::vector<CrackLine> cracks;
   ContactSettings contact;
   ContactRules contact_rules;

@@ -10,8 +10,8 @@ namespace riven {
 /// Sorted position of the particles of each tile, and the tiles grouped by colour: tiles of one colour never
 /// write to the same node.
 struct Tiles {
-  exec::Array<int> start;              ///< [tiles + 1] first particle of each tile
-  std::vector<int> by_colour;          ///< tiles that hold particles, colour after colour
+  exec::Array<int> start;      ///< [tiles + 1] first particle of each tile
+  std::vector<int> by_colour;  ///< tiles that hold particles, colour after colour
   int colour_start[5] = {0, 0, 0, 0, 0};
 };
 
@@ -20,16 +20,16 @@ struct Particles {
   static constexpr int tensor = Dim * Dim;
   static constexpr int symmetric = Dim * (Dim + 1) / 2;
 
-  exec::Array<Real> x[Dim];          ///< position, m
-  exec::Array<Real> v[Dim];          ///< velocity, m/s
-  exec::Array<Real> F[tensor];       ///< deformation gradient [F11 F12 F21 F22] (where a law or an output needs it)
-  exec::Array<Real> J;               ///< det F (laws that do not keep F)
-  exec::Array<Real> stress[symmetric]; ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
-  exec::Array<Real> mass;            ///< kg
-  exec::Array<Real> x0[Dim];         ///< first position, m (displacement-based contact, probes)
-  exec::Array<Real> step[Dim];       ///< move of this step, applied after the stresses (MUSL, USAVG)
-  exec::Array<std::uint8_t> body;    ///< index into Scene::bodies
-  exec::Array<int> id;               ///< stable number, 0 .. n-1
+  exec::Array<Real> x[Dim];             ///< position, m
+  exec::Array<Real> v[Dim];             ///< velocity, m/s
+  exec::Array<Real> F[tensor];          ///< deformation gradient [F11 F12 F21 F22] (where a law or an output needs it)
+  exec::Array<Real> J;                  ///< det F (laws that do not keep F)
+  exec::Array<Real> stress[symmetric];  ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
+  exec::Array<Real> mass;               ///< kg
+  exec::Array<Real> x0[Dim];            ///< first position, m (displacement-based contact, probes)
+  exec::Array<Real> step[Dim];          ///< move of this step, applied after the stresses (MUSL, USAVG)
+  exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
+  exec::Array<int> id;                  ///< stable number, 0 .. n-1
   Tiles tiles;
 
   int count() const { return static_cast<int>(id.size()); }
@@ -38,16 +38,23 @@ struct Particles {
   template <class F_>
   void each_array(F_&& f) {
     auto some = [&](auto& a) {
-      if (!a.empty()) f(a);
+      if (!a.empty())
+        f(a);
     };
-    for (auto& a : x) some(a);
-    for (auto& a : v) some(a);
-    for (auto& a : F) some(a);
+    for (auto& a : x)
+      some(a);
+    for (auto& a : v)
+      some(a);
+    for (auto& a : F)
+      some(a);
     some(J);
-    for (auto& a : stress) some(a);
+    for (auto& a : stress)
+      some(a);
     some(mass);
-    for (auto& a : x0) some(a);
-    for (auto& a : step) some(a);
+    for (auto& a : x0)
+      some(a);
+    for (auto& a : step)
+      some(a);
     some(body);
     some(id);
   }

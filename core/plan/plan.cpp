@@ -1,0 +1,94 @@
+#include "core/plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/scene/names.hpp"
+
+namespace riven {
+
+namespace {
+
+LawChoice law_choice(const Scene& scene) {
+  bool linear = false, neo = false;
+  for (const Body& b : scene.bodies) {
+    const LawKind law = scene.materials[static_cast<size_t>(b.material)].law;
+    linear |= law == LawKind::linear_elastic;
+    neo |= law == LawKind::neo_hookean;
+  }
+  return linear && neo ? LawChoice::any : neo ? LawChoice::neo_hookean : LawChoice::linear_elastic;
+}
+
+/// B-splines are folded at the walls only; a mirror inside the grid would need mirrored ghost nodes.
+void require_walls_for_bsplines(const Scene& scene) {
+  if (scene.shape != ShapeFunction::bspline)
+    return;
+  for (const SymmetryPlane& s : scene.symmetry) {
+    const double lower = s.axis == 0 ? scene.grid.lower.x : scene.grid.lower.y;
+    const double upper = s.axis == 0 ? scene.grid.upper.x : scene.grid.upper.y;
+    const double wall = s.solid > 0 ? lower : upper;
+    if (std::abs(s.position - wall) > 1e-6 * scene.cell)
+      fail({Exit::bad_input, "with B-splines a symmetry plane must be a wall of the grid", "symmetry",
+            std::to_string(s.position) + " m", std::to_string(wall) + " m",
+            "let the grid end at the plane, or use shape = \"ugimp\""});
+  }
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene) {
+  require_walls_for_bsplines(scene);
+  Plan p;
+  p.shape = scene.shape;
+  p.law = law_choice(scene);
+  p.transfer = scene.transfer;
+  p.order = scene.transfer == Transfer::xpic || scene.transfer == Transfer::fmpm ? scene.order : 1;
+  p.update = scene.stress_update;
+  p.scatter = scene.deterministic ? ScatterKind::ordered : scene.scatter;
+  p.cracks = !scene.cracks.empty();
+  if (p.cracks && !scene.crack_visibility) {
+    for (const CrackLine& c : scene.cracks) {
+      const ContactLaw law = c.contact.value_or(scene.contact).law;
+      if (law == ContactLaw::ignored)
+        continue;
+      p.contact = true;
+      p.contact_area |= law == ContactLaw::interface;
+      if (law == ContactLaw::bonded)
+        continue;
+      p.contact_volume |= scene.contact_rules.detection == ContactDetection::volume;
+      p.contact_position |=
+          scene.contact_rules.detection == ContactDetection::displacement || law == ContactLaw::interface;
+    }
+  }
+  p.grips = !scene.grips.empty();
+  p.constraints = p.grips || !scene.fixed.empty() || !scene.symmetry.empty();
+  p.loads = !scene.loads.empty();
+  p.body_force = scene.body_force[0] || scene.body_force[1];
+  p.grid_damping = scene.grid_damping.has_value();
+  p.particle_damping = scene.particle_damping.has_value();
+  p.displacement_probe = std::any_of(scene.probes.begin(), scene.probes.end(),
+                                     [](const Probe& q) { return q.kind == Probe::Kind::displacement; });
+  return p;
+}
+
+std::vector<std::string> Plan::effects() const {
+  std::vector<std::string> names;
+  auto say = [&](bool on, const char* name) {
+    if (on)
+      names.emplace_back(name);
+  };
+  say(cracks, "cracks");
+  say(contact, "contact");
+  say(contact_area, "imperfect interface");
+  say(grips, "grips");
+  say(constraints && !grips, "fixed nodes");
+  say(loads, "loads");
+  say(body_force, "body force");
+  say(grid_damping, "grid damping");
+  say(particle_damping, "particle damping");
+  say(higher_order() && order > 1, "higher orders");
+  return names;
+}
+
+}  // namespace riven

@@ -1,0 +1,51 @@
+// What a scene calls for: decided once, before the first step. Effects that are not in the plan have no task, no array
+// and no branch in the kernels that run.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace riven {
+
+enum class LawChoice { linear_elastic, neo_hookean, any };
+
+struct Plan {
+  // one choice each, made outside of the loops
+  ShapeFunction shape;
+  LawChoice law;
+  Transfer transfer;
+  int order;  ///< of XPIC or FMPM; 1 elsewhere
+  StressUpdate update;
+  ScatterKind scatter;
+
+  // effects
+  bool cracks = false;
+  bool contact = false;           ///< some crack's faces may touch
+  bool contact_volume = false;    ///< detection by volume, or interpenetration statistics, asks for nodal volumes
+  bool contact_position = false;  ///< detection by displacement, or an interface law, asks for positions
+  bool contact_area = false;      ///< an interface law asks for the length of crack at each node
+  bool grips = false;
+  bool constraints = false;  ///< any prescribed grid velocity: grips, fixed nodes, symmetry
+  bool loads = false;
+  bool body_force = false;
+  bool grid_damping = false;
+  bool particle_damping = false;
+
+  bool stress_before() const { return update == StressUpdate::usf || update == StressUpdate::usavg; }
+  bool stress_after() const { return update != StressUpdate::usf; }
+  bool extrapolate_again() const { return update == StressUpdate::musl || update == StressUpdate::usavg; }
+  bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
+  bool keeps_F() const { return law != LawChoice::linear_elastic; }
+  bool keeps_J() const { return law == LawChoice::linear_elastic; }
+  bool needs_contact_sums() const { return contact_volume || contact_position || contact_area; }
+  bool first_positions() const { return contact_position || displacement_probe; }
+  bool displacement_probe = false;
+
+  std::vector<std::string> effects() const;  ///< names of what is on, for the header and summary.json
+};
+
+/// Throws Error (bad input) for combinations that no kernel serves.
+Plan make_plan(const Scene& scene);
+
+}  // namespace riven

@@ -1,0 +1,49 @@
+// Prescribed grid velocities: fixed nodes, symmetry planes and the nodes that grips touch, as one list for the kernels.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/exec/array.hpp"
+#include "core/math/vec.hpp"
+#include "core/scene/scene.hpp"
+
+namespace riven {
+
+/// One node whose velocity is prescribed. Components whose mask bit is unset are free.
+struct Constraint {
+  int node;
+  std::uint8_t mask;      ///< bit 0: x, bit 1: y
+  std::int16_t owner[2];  ///< whose reaction each component is
+};
+
+/// Who prescribes: one entry for each [[fix]], [[symmetry]] and [[grip]].
+struct ConstraintOwner {
+  std::string name;
+  std::optional<TimeFunction> velocity[2];
+  double now[2] = {0, 0};     ///< velocity at the start of this step, m/s
+  double next[2] = {0, 0};    ///< and at its end
+  Vec2 impulse;               ///< given to the body in this step, N s
+  double torque_impulse = 0;  ///< about the origin, N m s
+  double work_now = 0;        ///< done on the body in this step, J
+  double work = 0;            ///< done on the body so far, J
+  Vec2 reaction;              ///< force of the last step, N
+};
+
+struct GripBlock {
+  int owner;
+  std::vector<Vec2> points;
+  double half = 0.25;  ///< half size of a rigid particle, in cells
+};
+
+struct Constraints {
+  std::vector<ConstraintOwner> owners;
+  std::vector<Constraint> fixed;  ///< known from the start
+  std::vector<GripBlock> grips;
+  exec::Array<Constraint> list;  ///< of this step
+  exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
+  exec::Array<int> at_node;      ///< [nodes] index into list + 1 while the list is made, else 0
+};
+
+}  // namespace riven

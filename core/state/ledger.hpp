@@ -1,0 +1,43 @@
+// Where energy and momentum went, term by term.
+#pragma once
+#include "core/math/vec.hpp"
+
+namespace riven {
+
+struct Energy {
+  double kinetic = 0, strain = 0;  ///< J, now
+  double external_work = 0;        ///< done on the bodies by loads, body forces, prescribed motion
+  double damping = 0;              ///< taken by grid and particle damping
+  double contact = 0;              ///< taken by contact (friction and impact)
+  double fracture = 0;             ///< released by crack growth
+  double first = 0;                ///< kinetic + strain at the start
+  double largest = 0;              ///< largest kinetic + strain, or work done, so far
+
+  double total() const { return kinetic + strain; }
+  /// What is left over: energy that the discretisation made (> 0) or lost.
+  double numerical() const { return total() + damping + contact + fracture - external_work - first; }
+  double relative_error() const { return largest > 0 ? numerical() / largest : 0; }
+};
+
+struct Momentum {
+  Vec2 linear;         ///< kg m/s, now
+  double angular = 0;  ///< kg m^2/s about the origin, now
+  Vec2 first;
+  double first_angular = 0;
+  Vec2 impulse;  ///< of loads, body forces, damping and reactions so far
+  double torque_impulse = 0;
+  double scale = 0;          ///< largest sum of m |v| so far
+  double angular_scale = 0;  ///< largest sum of m |x| |v| so far
+
+  double error() const { return scale > 0 ? norm(linear - first - impulse) / scale : 0; }
+  double angular_error() const {
+    return angular_scale > 0 ? std::abs(angular - first_angular - torque_impulse) / angular_scale : 0;
+  }
+};
+
+struct Ledger {
+  Energy energy;
+  Momentum momentum;
+};
+
+}  // namespace riven

@@ -1,0 +1,170 @@
+#include "core/state/make_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/state/lay_points.hpp"
+
+namespace riven {
+
+namespace {
+
+template <class Real>
+void make_tables(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
+  const Lattice& l = s.grid.lattice;
+  for (const Body& b : scene.bodies) {
+    const Material& m = scene.materials[static_cast<size_t>(b.material)];
+    const long i = s.domains.size();
+    s.domains.resize(i + 1);
+    for (int d = 0; d < 2; ++d) {
+      const Real half = Real(0.5 / b.particles_per_cell);
+      s.domains[i].axis[d] = {half, Real(1) / (4 * half), l.wall_lower[d], l.wall_upper[d]};
+    }
+    s.specific_area.resize(i + 1);
+    s.specific_area[i] = 1 / (m.density * (b.thickness > 0 ? b.thickness : scene.thickness));
+    const auto add = [&](auto& table) {
+      table.resize(i + 1);
+      table[i] = {m, scene.plane};
+    };
+    switch (plan.law) {
+      case LawChoice::linear_elastic: add(s.laws.linear); break;
+      case LawChoice::neo_hookean: add(s.laws.neo); break;
+      case LawChoice::any: add(s.laws.any); break;
+    }
+  }
+}
+
+struct Seed {
+  Vec2 x, v;
+  double mass;
+  int body;
+};
+
+/// Particles of all bodies, with their first velocities.
+std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
+  std::vector<Seed> seeds;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    const std::vector<Vec2> points = lay_points(body.region, body.holes, lattice, body.particles_per_cell);
+    if (points.empty())
+      fail({Exit::bad_input, "the body holds no particle", "body \"" + body.name + "\"", "",
+            "a region larger than a particle", "smaller cells, or more particles_per_cell"});
+    Vec2 center;
+    for (const Vec2 p : points)
+      center += p;
+    center *= 1 / static_cast<double>(points.size());
+    const double edge = lattice.h / body.particles_per_cell;
+    const double mass = scene.materials[static_cast<size_t>(body.material)].density * edge * edge *
+                        (body.thickness > 0 ? body.thickness : scene.thickness);
+    for (const Vec2 p : points)
+      seeds.push_back({p, body.velocity + body.spin * turned(p - center), mass, static_cast<int>(b)});
+  }
+  return seeds;
+}
+
+}  // namespace
+
+template <class Real>
+void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
+  s.grid.lattice = make_lattice(scene.grid.lower, scene.grid.upper, scene.cell);
+  make_tables(scene, plan, s);
+  const std::vector<Seed> seeds = lay_bodies(scene, s.grid.lattice);
+  const long n = static_cast<long>(seeds.size());
+  auto& p = s.particles;
+  for (auto* group : {p.x, p.v})
+    for (int d = 0; d < 2; ++d)
+      group[d].resize(n);
+  for (auto& a : p.stress)
+    a.resize(n);
+  for (auto* a : {&p.mass})
+    a->resize(n);
+  p.body.resize(n);
+  p.id.resize(n);
+  if (plan.keeps_F())
+    for (auto& a : p.F)
+      a.resize(n);
+  if (plan.keeps_J())
+    p.J.resize(n);
+  if (plan.first_positions())
+    for (auto& a : p.x0)
+      a.resize(n);
+  if (plan.extrapolate_again())
+    for (auto& a : p.step)
+      a.resize(n);
+  for (long i = 0; i < n; ++i) {
+    const Seed& seed = seeds[static_cast<size_t>(i)];
+    p.x[0][i] = Real(seed.x.x);
+    p.x[1][i] = Real(seed.x.y);
+    p.v[0][i] = Real(seed.v.x);
+    p.v[1][i] = Real(seed.v.y);
+    p.mass[i] = Real(seed.mass);
+    p.body[i] = static_cast<std::uint8_t>(seed.body);
+    p.id[i] = static_cast<int>(i);
+    if (plan.keeps_F())
+      p.F[0][i] = p.F[3][i] = Real(1);
+    if (plan.keeps_J())
+      p.J[i] = Real(1);
+    if (plan.first_positions()) {
+      p.x0[0][i] = p.x[0][i];
+      p.x0[1][i] = p.x[1][i];
+    }
+    s.particle_mass = std::max(s.particle_mass, seed.mass);
+  }
+  if (plan.cracks) {
+    double finest = scene.cell;
+    for (const Body& b : scene.bodies)
+      finest = std::min(finest, scene.cell / b.particles_per_cell);
+    s.cracks = make_cracks(scene, finest);
+    s.fields.fields.resize(n);
+  }
+  size_grid(plan, s);
+}
+
+template <class Real>
+void size_grid(const Plan& plan, State<Real, 2>& s) {
+  const long slots = long{s.grid.lattice.nodes()} + s.fields.extra_slots;
+  if (slots == s.grid.mass.size())
+    return;
+  s.grid.mass.resize(slots);
+  s.grid.q.resize(4 * slots);
+  if (plan.extrapolate_again())
+    s.grid.again.resize(4 * slots);
+  if (plan.higher_order() && plan.order > 1)
+    for (auto* a : {&s.grid.high, &s.grid.term, &s.grid.next})
+      a->resize(4 * slots);
+}
+
+template <class Real>
+std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
+  std::vector<ArrayReport> list;
+  const auto add = [&](const char* name, const auto&... arrays) {
+    ArrayReport r{name, 0, 0};
+    ((r.items += arrays.size(), r.bytes += arrays.empty() ? 0 : arrays.bytes()), ...);
+    if (r.items > 0)
+      list.push_back(r);
+  };
+  const auto& p = s.particles;
+  add("particles: position", p.x[0], p.x[1]);
+  add("particles: velocity", p.v[0], p.v[1]);
+  add("particles: deformation gradient", p.F[0], p.F[1], p.F[2], p.F[3]);
+  add("particles: det F", p.J);
+  add("particles: stress", p.stress[0], p.stress[1], p.stress[2]);
+  add("particles: mass", p.mass);
+  add("particles: first position", p.x0[0], p.x0[1]);
+  add("particles: move of the step", p.step[0], p.step[1]);
+  add("particles: body", p.body);
+  add("particles: id", p.id);
+  add("particles: crack fields", s.fields.fields);
+  add("grid: mass", s.grid.mass);
+  add("grid: momentum and force", s.grid.q);
+  add("grid: second extrapolation", s.grid.again);
+  add("grid: higher orders", s.grid.high, s.grid.term, s.grid.next);
+  return list;
+}
+
+template void make_state(const Scene&, const Plan&, State<double, 2>&);
+template void size_grid(const Plan&, State<double, 2>&);
+template std::vector<ArrayReport> list_arrays(const State<double, 2>&);
+
+}  // namespace riven

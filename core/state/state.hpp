@@ -1,0 +1,65 @@
+// Everything that changes while a scene runs, and the tables that kernels look things up in.
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "core/exec/array.hpp"
+#include "core/laws/elastic.hpp"
+#include "core/plan/plan.hpp"
+#include "core/state/bodies.hpp"
+#include "core/state/constraints.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/grid.hpp"
+#include "core/state/ledger.hpp"
+#include "core/state/loads.hpp"
+#include "core/state/particles.hpp"
+
+namespace riven {
+
+/// Laws by body; one of the tables is filled, as the plan says.
+template <class Real>
+struct LawTables {
+  exec::Array<LinearElastic<Real>> linear;
+  exec::Array<NeoHookean<Real>> neo;
+  exec::Array<AnyElastic<Real>> any;
+};
+
+/// What the particle kernels saw in the last step, per tile and in all.
+struct StepWatch {
+  exec::Array<double> tile_move;    ///< [tiles] largest |dx| of a particle along an axis, m
+  exec::Array<double> tile_J;       ///< [tiles] least det F
+  exec::Array<double> tile_finite;  ///< [tiles] sum of |dx|: not finite if any particle's is not
+  double largest_move = 0;          ///< m, this step
+  double least_J = 1;
+  double drift = 0;  ///< sum of largest_move since the particles were sorted, m
+};
+
+struct Clock {
+  long step = 0;
+  double time = 0;           ///< s
+  double dt = 0;             ///< s
+  const char* limiter = "";  ///< what limits dt
+  double stable_dt = 0;      ///< of the last measurement of speeds, before the run's end shortens it
+  const char* stable_limiter = "";
+  double measured_speed = 0;  ///< m/s, of the fastest particle when speeds were measured
+};
+
+template <class Real, int Dim>
+struct State {
+  Particles<Real, Dim> particles;
+  Grid<Real> grid;
+  Cracks cracks;
+  CrackFields fields;
+  LawTables<Real> laws;
+  exec::Array<DomainSetting<Real, Dim>> domains;  ///< [bodies]
+  exec::Array<double> specific_area;              ///< [bodies] first area of particles, m^2 per kg
+  Constraints constraints;
+  Loads loads;
+  StepWatch watch;
+  Clock clock;
+  Ledger ledger;
+  double particle_mass = 0;  ///< the largest, kg
+};
+
+}  // namespace riven

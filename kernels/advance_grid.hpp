@@ -1,0 +1,38 @@
+// The momentum update on the grid, for every slot (seed 000, eq. 1; seed 002, task 4):
+//   a = f / m - kappa v,   v~ = p / m + a dt.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// Sums that only scenes with body forces or grid damping need.
+struct GridSums {
+  double mass = 0;            ///< kg
+  Vec2 momentum;              ///< sum m (v + v~) / 2, kg m/s
+  Vec2 moment;                ///< sum m x, kg m
+  double damping_work = 0;    ///< taken by grid damping in this step, J
+  Vec2 damping_impulse;       ///< given to the body by grid damping, N s
+  double damping_torque = 0;  ///< about the origin, N m s
+  GridSums& operator+=(const GridSums& o);
+};
+
+/// q: [px py . .] -> [vx vy . .] in all slots; slots without mass become zero. For Grid::q and Grid::again.
+template <class Real>
+void momenta_to_velocities(const exec::Space&, State<Real, 2>&, Real* q);
+
+/// q: [px py fx fy], or [vx vy fx fy] when `from_velocity`, -> [v~x v~y ax ay].
+template <class Real>
+void advance_grid(const exec::Space&, State<Real, 2>&, bool from_velocity, double damping);
+
+/// Sums over the step's start and end, once velocities and accelerations are constrained.
+template <class Real>
+GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double damping);
+
+/// Masses below this are rounding remains, not matter: far below 1e-12 of any momentum.
+template <class Real>
+double mass_cutoff(const State<Real, 2>& s) {
+  return 1e-20 * s.particle_mass;
+}
+
+}  // namespace riven

@@ -1,0 +1,21 @@
+// Forces on chosen particles: f_ij += sum f_p S_ip (seed 002, eq. 28), into the fields that the particle sees.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// Finds the particles of each [[load]] and their shares; bodies are as laid out at the start.
+/// Throws Error (bad input) for a load that finds no particle.
+template <class Real>
+void make_loads(const Scene&, State<Real, 2>&);
+
+/// Adds the forces of this step to Grid::q and books their impulse.
+template <class Real>
+void apply_loads(const Plan&, State<Real, 2>&);
+
+/// Books the work that the forces did while their particles moved.
+template <class Real>
+void settle_loads(State<Real, 2>&);
+
+}  // namespace riven

@@ -1,0 +1,214 @@
+// A block of particles: the weights of up to exec::lanes particles, computed together, and the moves of groups of
+// four node values between one of them and its nodes.
+//
+// Shape functions are recomputed in every pass: storing 27 numbers per particle costs more than it saves.
+#pragma once
+#include "core/exec/atomic.hpp"
+#include "core/math/quad.hpp"
+#include "core/math/shape.hpp"
+#include "core/state/bodies.hpp"
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+/// Particles' positions and how to turn them into weights.
+template <class Real>
+struct Positions {
+  const Real* x;
+  const Real* y;
+  Real origin_x, origin_y, inv_h;
+  BodyLookup<DomainSetting<Real, 2>> domain;
+};
+
+template <class Real, class Shape>
+struct Block {
+  static constexpr int N = Shape::width;
+  static constexpr int lanes = exec::lanes;
+  alignas(64) Real sx[N][lanes];
+  alignas(64) Real sy[N][lanes];
+  alignas(64) Real gx[N][lanes];  ///< d/dx, 1/m
+  alignas(64) Real gy[N][lanes];
+  alignas(64) int ix[lanes];  ///< first node along x
+  alignas(64) int iy[lanes];
+
+  /// Weights of particles first .. first + lanes - 1. Lanes past the end of a tile hold other particles or padding,
+  /// whose weights nobody uses; computing them keeps the loop whole.
+  RIVEN_INLINE void weigh(const Positions<Real>& p, long first) {
+    if (p.domain.single) {
+      const DomainSetting<Real, 2> d = p.domain.table[0];
+      weigh_each(p, first, [&](long) -> const DomainSetting<Real, 2>& { return d; });
+    } else {
+      weigh_each(p, first, [&](long i) -> const DomainSetting<Real, 2>& { return p.domain.of(i); });
+    }
+  }
+
+ private:
+  template <class DomainOf>
+  RIVEN_INLINE void weigh_each(const Positions<Real>& p, long first, const DomainOf& domain_of) {
+    const Real* x = p.x + first;
+    const Real* y = p.y + first;
+    exec::for_lanes(lanes, [&](int k) {
+      const DomainSetting<Real, 2>& d = domain_of(first + k);
+      const Axis<Real, N> a = Shape::axis((x[k] - p.origin_x) * p.inv_h, d.axis[0]);
+      const Axis<Real, N> b = Shape::axis((y[k] - p.origin_y) * p.inv_h, d.axis[1]);
+      for (int i = 0; i < N; ++i) {
+        sx[i][k] = a.s[i];
+        sy[i][k] = b.s[i];
+        gx[i][k] = a.g[i] * p.inv_h;
+        gy[i][k] = b.g[i] * p.inv_h;
+      }
+      ix[k] = a.base;
+      iy[k] = b.base;
+    });
+  }
+};
+
+/// Where a scatter writes field 0: the whole grid (offset 0) or a tile's own buffer. `mass` may be null.
+template <class Real>
+struct NodeTarget {
+  Real* mass;
+  Real* q;
+  int stride;
+  int offset_x, offset_y;
+  RIVEN_INLINE int at(int i, int j) const { return (j - offset_y) * stride + i - offset_x; }
+};
+
+/// The slots behind the plain grid, and the fields that lead to them. Without cracks `word` is null.
+template <class Real>
+struct ExtraSlots {
+  const std::uint32_t* word = nullptr;  ///< CrackFields::fields
+  const int* extra = nullptr;
+  int nodes = 0;
+  int nx = 0;
+  bool atomic = false;  ///< slots may be written by several tiles at once
+  RIVEN_INLINE int slot(int node, int field) const { return nodes + extra[node] + field - 1; }
+};
+
+inline constexpr int field_bits = 2;
+RIVEN_INLINE int field_of(std::uint32_t word, int neighbour) {
+  return (word >> (field_bits * neighbour)) & 3u;
+}
+
+template <class Real>
+RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
+  if (atomic)
+    exec::atomic_add(target, value);
+  else
+    target += value;
+}
+
+/// Adds to each node of particle k:  mass S  and  S A + dS/dx B + dS/dy C.
+template <bool Mass, bool Gradient, class Real, class Shape>
+RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
+                          const Quad<Real>& C, const NodeTarget<Real>& to) {
+  constexpr int N = Shape::width;
+  const int first = to.at(w.ix[k], w.iy[k]);
+  Real* q = to.q + 4L * first;
+#pragma GCC unroll 3
+  for (int j = 0; j < N; ++j, q += 4L * to.stride) {
+    Quad<Real> row = w.sy[j][k] * A;
+    if constexpr (Gradient) {
+      row += w.gy[j][k] * C;
+      const Quad<Real> across = w.sy[j][k] * B;
+#pragma GCC unroll 3
+      for (int i = 0; i < N; ++i)
+        quad_at<Real>(q + 4 * i) += w.sx[i][k] * row + w.gx[i][k] * across;
+    } else {
+#pragma GCC unroll 3
+      for (int i = 0; i < N; ++i)
+        quad_at<Real>(q + 4 * i) += w.sx[i][k] * row;
+    }
+    if constexpr (Mass) {
+      Real* m = to.mass + first + static_cast<long>(j) * to.stride;
+      const Real ms = mass * w.sy[j][k];
+#pragma GCC unroll 3
+      for (int i = 0; i < N; ++i)
+        m[i] += ms * w.sx[i][k];
+    }
+  }
+}
+
+/// The same for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`, `grid_q`.
+template <bool Mass, class Real, class Shape>
+RIVEN_INLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
+                                 const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
+                                 std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
+  constexpr int N = Shape::width;
+  for (int j = 0; j < N; ++j) {
+    const Quad<Real> row = w.sy[j][k] * A + w.gy[j][k] * C, across = w.sy[j][k] * B;
+    for (int i = 0; i < N; ++i) {
+      const Quad<Real> value = w.sx[i][k] * row + w.gx[i][k] * across;
+      const Real m = mass * w.sx[i][k] * w.sy[j][k];
+      const int x = w.ix[k] + i, y = w.iy[k] + j, f = field_of(word, j * N + i);
+      if (f == 0) {
+        const int n = to.at(x, y);
+        quad_at<Real>(to.q + 4L * n) += value;
+        if constexpr (Mass)
+          to.mass[n] += m;
+      } else {
+        const int s = extra.slot(y * extra.nx + x, f);
+        for (int c = 0; c < 4; ++c)
+          add(grid_q[4L * s + c], value[c], extra.atomic);
+        if constexpr (Mass)
+          add(grid_mass[s], m, extra.atomic);
+      }
+    }
+  }
+}
+
+/// Four node values at a particle, and their gradients.
+template <class Real>
+struct Gathered {
+  Quad<Real> value, dx, dy;
+};
+
+/// sum S q, sum dS/dx q, sum dS/dy q over the nodes of particle k.
+template <bool Gradient, class Real, class Shape>
+RIVEN_INLINE Gathered<Real> gather(const Block<Real, Shape>& w, int k, const Real* q, int nx) {
+  constexpr int N = Shape::width;
+  Gathered<Real> out{};
+  const Real* row = q + 4L * (static_cast<long>(w.iy[k]) * nx + w.ix[k]);
+#pragma GCC unroll 3
+  for (int j = 0; j < N; ++j, row += 4L * nx) {
+    Quad<Real> s{}, d{};
+#pragma GCC unroll 3
+    for (int i = 0; i < N; ++i) {
+      const Quad<Real>& n = quad_at<Real>(row + 4 * i);
+      s += w.sx[i][k] * n;
+      if constexpr (Gradient)
+        d += w.gx[i][k] * n;
+    }
+    out.value += w.sy[j][k] * s;
+    if constexpr (Gradient) {
+      out.dx += w.sy[j][k] * d;
+      out.dy += w.gy[j][k] * s;
+    }
+  }
+  return out;
+}
+
+/// The same for a particle that sees some nodes across cracks.
+template <bool Gradient, class Real, class Shape>
+RIVEN_INLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, const Real* q, std::uint32_t word,
+                                          const ExtraSlots<Real>& extra) {
+  constexpr int N = Shape::width;
+  Gathered<Real> out{};
+  for (int j = 0; j < N; ++j) {
+    Quad<Real> s{}, d{};
+    for (int i = 0; i < N; ++i) {
+      const int node = (w.iy[k] + j) * extra.nx + w.ix[k] + i, f = field_of(word, j * N + i);
+      const Quad<Real>& n = quad_at<Real>(q + 4L * (f == 0 ? node : extra.slot(node, f)));
+      s += w.sx[i][k] * n;
+      if constexpr (Gradient)
+        d += w.gx[i][k] * n;
+    }
+    out.value += w.sy[j][k] * s;
+    if constexpr (Gradient) {
+      out.dx += w.sy[j][k] * d;
+      out.dy += w.gy[j][k] * s;
+    }
+  }
+  return out;
+}
+
+}  // namespace riven

@@ -1,0 +1,45 @@
+// From choices made at run time to kernels compiled for them: the one place, and the one table of what exists.
+//
+//   shape   linear, uGIMP, B-spline
+//   law     linear elastic, neo-Hookean, both          (only where stresses are updated)
+//   cracks  without, with
+#pragma once
+#include <type_traits>
+
+#include "core/laws/elastic.hpp"
+#include "core/math/shape.hpp"
+#include "core/plan/plan.hpp"
+
+namespace riven {
+
+template <class T>
+struct Type {
+  using type = T;
+};
+
+template <class F>
+decltype(auto) with_shape(ShapeFunction shape, F&& f) {
+  switch (shape) {
+    case ShapeFunction::linear: return f(Type<Linear>{});
+    case ShapeFunction::bspline: return f(Type<BSpline>{});
+    case ShapeFunction::ugimp: break;
+  }
+  return f(Type<UGimp>{});
+}
+
+template <class Real, class F>
+decltype(auto) with_law(LawChoice law, F&& f) {
+  switch (law) {
+    case LawChoice::neo_hookean: return f(Type<NeoHookean<Real>>{});
+    case LawChoice::any: return f(Type<AnyElastic<Real>>{});
+    case LawChoice::linear_elastic: break;
+  }
+  return f(Type<LinearElastic<Real>>{});
+}
+
+template <class F>
+decltype(auto) with_flag(bool flag, F&& f) {
+  return flag ? f(std::true_type{}) : f(std::false_type{});
+}
+
+}  // namespace riven

@@ -1,0 +1,205 @@
+#include "kernels/grid_to_particle.hpp"
+
+#include <algorithm>
+
+#include "kernels/dispatch.hpp"
+#include "kernels/stress_update.hpp"
+#include "kernels/tiles.hpp"
+#include "kernels/watch.hpp"
+
+namespace riven {
+
+TransferRule transfer_rule(const Plan& plan, double pic_fraction, double particle_damping, double dt) {
+  TransferRule r;
+  r.keep = plan.transfer == Transfer::flip ? 1 : plan.transfer == Transfer::pic ? 1 - pic_fraction : 0;
+  r.high = plan.higher_order() && plan.order > 1;
+  r.high_dt = r.high && plan.transfer == Transfer::xpic ? dt : 0;
+  r.high_gradient = r.high && plan.transfer == Transfer::fmpm;
+  r.damping = particle_damping;
+  return r;
+}
+
+namespace {
+
+/// What a block gathers: updated velocity, acceleration, and the velocity that the transfer rule hands over.
+template <class Real>
+struct MotionLanes {
+  alignas(64) Real vx[exec::lanes], vy[exec::lanes], ax[exec::lanes], ay[exec::lanes], hx[exec::lanes], hy[exec::lanes];
+};
+
+template <bool Gradient, bool High, class Real, class Shape>
+RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
+                                std::uint32_t word, const ExtraSlots<Real>& extra, bool high_gradient,
+                                MotionLanes<Real>& m, GradientLanes<Real>& g) {
+  const auto read = [&](const Real* from) {
+    return word ? gather_fields<Gradient>(w, k, from, word, extra) : gather<Gradient>(w, k, from, nx);
+  };
+  const Gathered<Real> a = read(q);
+  m.vx[k] = a.value[0];
+  m.vy[k] = a.value[1];
+  m.ax[k] = a.value[2];
+  m.ay[k] = a.value[3];
+  if constexpr (High) {
+    const Gathered<Real> b = read(high);
+    m.hx[k] = b.value[0];
+    m.hy[k] = b.value[1];
+    if constexpr (Gradient)
+      g.set(k, high_gradient ? b : a);
+  } else {
+    m.hx[k] = a.value[0];
+    m.hy[k] = a.value[1];
+    if constexpr (Gradient)
+      g.set(k, a);
+  }
+}
+
+/// Numbers of one step, the same for every particle.
+template <class Real>
+struct StepNumbers {
+  Real dt, keep, high_dt, damping;
+};
+
+/// New velocity of each lane; the move goes to `dx`, `dy`.
+template <class Real>
+RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+                                const StepNumbers<Real>& n, Real* dx, Real* dy) {
+  exec::for_lanes(count, [&](int k) {
+    const long i = first + k;
+    const Real vx = p.vx[i], vy = p.vy[i];
+    const Real ax = m.ax[k] - n.damping * vx, ay = m.ay[k] - n.damping * vy;
+    dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * ax);
+    dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * ay);
+    p.vx[i] = n.keep * (vx + n.dt * ax) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k] - n.dt * n.damping * vx);
+    p.vy[i] = n.keep * (vy + n.dt * ay) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k] - n.dt * n.damping * vy);
+  });
+}
+
+template <class Real>
+StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
+  return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping)};
+}
+
+template <class Shape, class Law, bool Cracked, bool High, bool Stress, class Real>
+void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) {
+  constexpr int L = exec::lanes;
+  const Real *q = s.grid.q.data(), *high = s.grid.high.data();
+  const int nx = s.grid.lattice.nx;
+  const ParticleView<Real> p = view(s.particles);
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, false);
+  const BodyLookup<Law> law = laws<Law>(s);
+  const StepNumbers<Real> n = numbers(s, rule);
+  const bool high_gradient = rule.high_gradient;
+  const WatchTiles see(s.watch);
+  each_tile(space, "grid to particle", s.particles.tiles, [=](int tile, long begin, long end) {
+    Block<Real, Shape> w;
+    MotionLanes<Real> motion;
+    GradientLanes<Real> gradient;
+    alignas(64) Real dx[L], dy[L];
+    TileWatch<Real> seen;
+    for (long first = begin; first < end; first += L) {
+      const int count = static_cast<int>(std::min<long>(L, end - first));
+      w.weigh(at, first);
+      if (Cracked && any_crossing(extra, first, count))
+        for (int k = 0; k < count; ++k)
+          gather_motion<Stress, High>(w, k, q, high, nx, extra.word[first + k], extra, high_gradient, motion, gradient);
+      else
+        for (int k = 0; k < count; ++k)
+          gather_motion<Stress, High>(w, k, q, high, nx, 0, extra, high_gradient, motion, gradient);
+      update_motion(p, first, count, motion, n, dx, dy);
+      exec::for_lanes(count, [&](int k) {
+        p.x[first + k] += dx[k];
+        p.y[first + k] += dy[k];
+      });
+      seen.moves(dx, dy, count);
+      if constexpr (Stress)
+        seen.least_J(update_stress_lanes(p, first, count, gradient, n.dt, law));
+    }
+    see.put_moves(tile, seen);
+    if constexpr (Stress)
+      see.put_J(tile, seen);
+  });
+  watch_moves(s);
+  if constexpr (Stress)
+    watch_J(s);
+}
+
+template <class Shape, bool Cracked, bool High, class Real>
+void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
+  constexpr int L = exec::lanes;
+  const Real *q = s.grid.q.data(), *high = s.grid.high.data();
+  Real* again = s.grid.again.data();
+  const int nx = s.grid.lattice.nx;
+  const ParticleView<Real> p = view(s.particles);
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const StepNumbers<Real> n = numbers(s, rule);
+  const WatchTiles see(s.watch);
+  scatter_tiles<false>(space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
+                       static_cast<Real*>(nullptr), again,
+                       [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+                         Block<Real, Shape> w;
+                         MotionLanes<Real> motion;
+                         GradientLanes<Real> none;
+                         TileWatch<Real> seen;
+                         for (long first = begin; first < end; first += L) {
+                           const int count = static_cast<int>(std::min<long>(L, end - first));
+                           w.weigh(at, first);
+                           const bool crossing = Cracked && any_crossing(extra, first, count);
+                           for (int k = 0; k < count; ++k)
+                             gather_motion<false, High>(w, k, q, high, nx, crossing ? extra.word[first + k] : 0, extra,
+                                                        false, motion, none);
+                           update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first);
+                           seen.moves(p.step_x + first, p.step_y + first, count);
+                           for (int k = 0; k < count; ++k) {
+                             const long i = first + k;
+                             const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
+                             if (crossing && extra.word[i] != 0)
+                               scatter_fields<false>(w, k, Real(0), A, zero, zero, to, extra.word[i], extra,
+                                                     static_cast<Real*>(nullptr), again);
+                             else
+                               scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+                           }
+                         }
+                         see.put_moves(tile, seen);
+                       });
+  watch_moves(s);
+}
+
+}  // namespace
+
+template <class Real>
+void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule,
+                      bool with_stress) {
+  with_shape(plan.shape, [&](auto shape) {
+    with_flag(plan.cracks, [&](auto cracked) {
+      with_flag(rule.high, [&](auto high) {
+        using Shape = typename decltype(shape)::type;
+        if (with_stress)
+          with_law<Real>(plan.law, [&](auto law) {
+            run<Shape, typename decltype(law)::type, decltype(cracked)::value, decltype(high)::value, true>(space, s,
+                                                                                                            rule);
+          });
+        else
+          run<Shape, LinearElastic<Real>, decltype(cracked)::value, decltype(high)::value, false>(space, s, rule);
+      });
+    });
+  });
+}
+
+template <class Real>
+void grid_to_particle_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
+  with_shape(plan.shape, [&](auto shape) {
+    with_flag(plan.cracks, [&](auto cracked) {
+      with_flag(rule.high, [&](auto high) {
+        run_again<typename decltype(shape)::type, decltype(cracked)::value, decltype(high)::value>(space, plan, s,
+                                                                                                   rule);
+      });
+    });
+  });
+}
+
+template void grid_to_particle(const exec::Space&, const Plan&, State<double, 2>&, const TransferRule&, bool);
+template void grid_to_particle_again(const exec::Space&, const Plan&, State<double, 2>&, const TransferRule&);
+
+}  // namespace riven

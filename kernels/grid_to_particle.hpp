@@ -1,0 +1,33 @@
+// Grid to particles (seed 000, section 2.1.1). With a = sum S f/m and v~ = sum S (p + f dt)/m of each particle's
+// fields,
+//   FLIP      V' = V + a dt
+//   PIC       V' = (1 - alpha) (V + a dt) + alpha v~
+//   XPIC(k)   V' = S v(k)(p) + dt a
+//   FMPM(k)   V' = S v(k)(p~)
+//   position  x' = x + v~ dt - a dt^2 / 2
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+struct TransferRule {
+  double keep = 1;     ///< weight of the particle's own updated velocity: 1 FLIP, 1 - alpha PIC, 0 XPIC and FMPM
+  double high_dt = 0;  ///< XPIC: dt, adds dt a to the higher-order velocity
+  bool high = false;   ///< read Grid::high (orders above one)
+  bool high_gradient = false;  ///< strain rates from Grid::high (FMPM)
+  double damping = 0;          ///< particle damping, 1/s
+};
+
+TransferRule transfer_rule(const Plan&, double pic_fraction, double particle_damping, double dt);
+
+/// Velocities and positions in one pass, and stresses too (USL).
+template <class Real>
+void grid_to_particle(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&, bool with_stress);
+
+/// Velocities only, and at once their momenta back to Grid::again by the old shape functions; the move is kept in
+/// Particles::step until the stresses are updated (MUSL, USAVG; seed 002, task 6c).
+template <class Real>
+void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
+
+}  // namespace riven

@@ -1,0 +1,85 @@
+#include "kernels/higher_orders.hpp"
+
+#include <algorithm>
+
+#include "kernels/advance_grid.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/prescribe_velocities.hpp"
+#include "kernels/tiles.hpp"
+#include "kernels/views.hpp"
+
+namespace riven {
+
+namespace {
+
+/// next += S^T M S term, in one pass over the particles.
+template <class Shape, bool Cracked, class Real>
+void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+  constexpr int L = exec::lanes;
+  const Real* term = s.grid.term.data();
+  Real* next = s.grid.next.data();
+  const int nx = s.grid.lattice.nx;
+  const Real* mass = s.particles.mass.data();
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  scatter_tiles<false>(
+      space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), next,
+      [=](int, long begin, long end, const NodeTarget<Real>& to) {
+        Block<Real, Shape> w;
+        for (long first = begin; first < end; first += L) {
+          const int count = static_cast<int>(std::min<long>(L, end - first));
+          w.weigh(at, first);
+          for (int k = 0; k < count; ++k) {
+            const std::uint32_t word = Cracked ? extra.word[first + k] : 0;
+            const Quad<Real> v =
+                word ? gather_fields<false>(w, k, term, word, extra).value : gather<false>(w, k, term, nx).value;
+            const Quad<Real> mv = mass[first + k] * v, zero{};
+            if (word)
+              scatter_fields<false>(w, k, Real(0), mv, zero, zero, to, word, extra, static_cast<Real*>(nullptr), next);
+            else
+              scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
+          }
+        }
+      });
+}
+
+}  // namespace
+
+template <class Real>
+void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+  Grid<Real>& g = s.grid;
+  const long slots = g.slots();
+  const Real *q = g.q.data(), *mass = g.mass.data();
+  const Real back = Real(plan.transfer == Transfer::xpic ? s.clock.dt : 0), least = Real(mass_cutoff(s));
+  exec::parallel_for(
+      space, "higher orders: first", slots,
+      [=, high = g.high.data(), term = g.term.data(), next = g.next.data()](long n) {
+        const Quad<Real> v{q[4 * n] - back * q[4 * n + 2], q[4 * n + 1] - back * q[4 * n + 3], Real(0), Real(0)};
+        quad_at<Real>(high + 4 * n) = v;
+        quad_at<Real>(term + 4 * n) = v;
+        quad_at<Real>(next + 4 * n) = Quad<Real>{};
+      });
+  for (int j = 1; j < plan.order; ++j) {
+    with_shape(plan.shape, [&](auto shape) {
+      with_flag(plan.cracks, [&](auto cracked) {
+        smooth<typename decltype(shape)::type, decltype(cracked)::value>(space, plan, s);
+      });
+    });
+    exec::parallel_for(space, "higher orders: term", slots, [=, term = g.term.data(), next = g.next.data()](long n) {
+      const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
+      quad_at<Real>(next + 4 * n) = quad_at<Real>(term + 4 * n) + (-inverse) * quad_at<Real>(next + 4 * n);
+    });
+    if (plan.constraints)
+      prescribe_velocities(space, s, Stage::term, 1);
+    g.term.swap(g.next);
+    exec::parallel_for(space, "higher orders: sum", slots,
+                       [=, high = g.high.data(), term = g.term.data(), next = g.next.data()](long n) {
+                         quad_at<Real>(high + 4 * n) += quad_at<Real>(term + 4 * n);
+                         quad_at<Real>(next + 4 * n) = Quad<Real>{};
+                       });
+  }
+}
+
+template void higher_orders(const exec::Space&, const Plan&, State<double, 2>&);
+
+}  // namespace riven

@@ -1,0 +1,83 @@
+#include "kernels/particle_to_grid.hpp"
+
+#include <algorithm>
+
+#include "kernels/dispatch.hpp"
+#include "kernels/tiles.hpp"
+#include "kernels/views.hpp"
+
+namespace riven {
+
+namespace {
+
+template <class Shape, bool Cracked, bool Forces, class Real>
+void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
+  constexpr int L = exec::lanes;
+  Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
+  const ParticleView<Real> p = view(s.particles);
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const Real bx = Real(gravity.x), by = Real(gravity.y);
+  scatter_tiles<true>(space, "particle to grid", plan.scatter, s.particles.tiles, s.grid.lattice, mass, q,
+                      [=](int, long begin, long end, const NodeTarget<Real>& to) {
+                        Block<Real, Shape> w;
+                        alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
+                        for (long first = begin; first < end; first += L) {
+                          const int count = static_cast<int>(std::min<long>(L, end - first));
+                          w.weigh(at, first);
+                          exec::for_lanes(L, [&](int k) {
+                            m[k] = p.mass[first + k];
+                            px[k] = m[k] * p.vx[first + k];
+                            py[k] = m[k] * p.vy[first + k];
+                            if constexpr (Forces) {
+                              txx[k] = -m[k] * p.sxx[first + k];
+                              tyy[k] = -m[k] * p.syy[first + k];
+                              txy[k] = -m[k] * p.sxy[first + k];
+                            }
+                          });
+                          const bool crossing = Cracked && any_crossing(extra, first, count);
+                          for (int k = 0; k < count; ++k) {
+                            Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
+                            if constexpr (Forces) {
+                              A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
+                              B = Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
+                              C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
+                            }
+                            if (Cracked && crossing && extra.word[first + k] != 0)
+                              scatter_fields<true>(w, k, m[k], A, B, C, to, extra.word[first + k], extra, mass, q);
+                            else
+                              scatter<true, Forces>(w, k, m[k], A, B, C, to);
+                          }
+                        }
+                      });
+}
+
+}  // namespace
+
+template <class Real>
+void clear_grid(const exec::Space& space, State<Real, 2>& s) {
+  const long slots = s.grid.slots();
+  Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
+  constexpr long piece = 16384;
+  exec::parallel_tasks(space, "clear grid", (slots + piece - 1) / piece, [=](long c) {
+    const long begin = c * piece, end = std::min(slots, begin + piece);
+    std::fill(mass + begin, mass + end, Real(0));
+    std::fill(q + 4 * begin, q + 4 * end, Real(0));
+  });
+}
+
+template <class Real>
+void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>& s, bool with_forces, Vec2 gravity) {
+  with_shape(plan.shape, [&](auto shape) {
+    with_flag(plan.cracks, [&](auto cracked) {
+      with_flag(with_forces, [&](auto forces) {
+        run<typename decltype(shape)::type, decltype(cracked)::value, decltype(forces)::value>(space, plan, s, gravity);
+      });
+    });
+  });
+}
+
+template void clear_grid(const exec::Space&, State<double, 2>&);
+template void particle_to_grid(const exec::Space&, const Plan&, State<double, 2>&, bool, Vec2);
+
+}  // namespace riven

@@ -1,0 +1,205 @@
+#include "kernels/prescribe_velocities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/exec/parallel.hpp"
+#include "core/state/lay_points.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/field_slots.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Adds a component of a node to the list, or hands it to a later owner.
+void claim(std::vector<Constraint>& list, exec::Array<int>& at_node, int node, int axis, int owner) {
+  int& at = at_node[node];
+  if (at == 0) {
+    list.push_back({node, 0, {-1, -1}});
+    at = static_cast<int>(list.size());
+  }
+  Constraint& c = list[static_cast<size_t>(at - 1)];
+  c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
+  c.owner[axis] = static_cast<std::int16_t>(owner);
+}
+
+/// Node numbers along one axis that lie in [lower, upper]; a range that touches a wall goes on behind it.
+std::pair<int, int> node_range(const Lattice& l, int axis, double lower, double upper) {
+  const double origin = axis == 0 ? l.origin.x : l.origin.y;
+  int first = static_cast<int>(std::ceil((lower - origin) / l.h - 1e-6));
+  int last = static_cast<int>(std::floor((upper - origin) / l.h + 1e-6));
+  if (first <= l.wall_lower[axis])
+    first = 0;
+  if (last >= l.wall_upper[axis])
+    last = (axis == 0 ? l.nx : l.ny) - 1;
+  return {std::max(first, 0), std::min(last, (axis == 0 ? l.nx : l.ny) - 1)};
+}
+
+void claim_box(std::vector<Constraint>& list, exec::Array<int>& at_node, const Lattice& l, std::pair<int, int> x,
+               std::pair<int, int> y, const ConstraintOwner& owner, int number) {
+  for (int j = y.first; j <= y.second; ++j)
+    for (int i = x.first; i <= x.second; ++i)
+      for (int axis = 0; axis < 2; ++axis)
+        if (owner.velocity[axis])
+          claim(list, at_node, j * l.nx + i, axis, number);
+}
+
+template <class Shape>
+void claim_grip(std::vector<Constraint>& list, exec::Array<int>& at_node, const Lattice& l, const GripBlock& grip,
+                const ConstraintOwner& owner) {
+  AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
+  b.wall_lower = l.wall_lower[1];
+  b.wall_upper = l.wall_upper[1];
+  for (const Vec2 p : grip.points) {
+    const auto x = Shape::axis((p.x - l.origin.x) / l.h, a);
+    const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
+    for (int j = 0; j < Shape::width; ++j)
+      for (int i = 0; i < Shape::width; ++i)
+        // a weight of rounding size is no touch: it would grip a node one cell further in
+        if (x.s[i] * y.s[j] > 1e-9)
+          for (int axis = 0; axis < 2; ++axis)
+            if (owner.velocity[axis])
+              claim(list, at_node, (y.base + j) * l.nx + x.base + i, axis, grip.owner);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void make_constraints(const Scene& scene, State<Real, 2>& s) {
+  Constraints& c = s.constraints;
+  const Lattice& l = s.grid.lattice;
+  c.at_node.resize(l.nodes());
+  const auto add_owner = [&](std::string name, const std::optional<TimeFunction>* velocity) -> int {
+    ConstraintOwner o;
+    o.name = std::move(name);
+    o.velocity[0] = velocity[0];
+    o.velocity[1] = velocity[1];
+    c.owners.push_back(std::move(o));
+    return static_cast<int>(c.owners.size()) - 1;
+  };
+  const std::pair<int, int> all_x{0, l.nx - 1}, all_y{0, l.ny - 1};
+  for (const SymmetryPlane& plane : scene.symmetry) {
+    std::optional<TimeFunction> velocity[2];
+    velocity[plane.axis] = TimeFunction{};
+    const int owner = add_owner(plane.axis == 0 ? "symmetry x" : "symmetry y", velocity);
+    const auto at = node_range(l, plane.axis, plane.position, plane.position);
+    auto behind =
+        plane.solid > 0 ? std::pair{0, at.second} : std::pair{at.first, plane.axis == 0 ? l.nx - 1 : l.ny - 1};
+    claim_box(c.fixed, c.at_node, l, plane.axis == 0 ? behind : all_x, plane.axis == 0 ? all_y : behind,
+              c.owners.back(), owner);
+  }
+  for (const FixedNodes& f : scene.fixed) {
+    const int owner = add_owner(f.name, f.velocity);
+    claim_box(c.fixed, c.at_node, l, node_range(l, 0, f.box.lower.x, f.box.upper.x),
+              node_range(l, 1, f.box.lower.y, f.box.upper.y), c.owners.back(), owner);
+  }
+  for (const Constraint& k : c.fixed)
+    c.at_node[k.node] = 0;
+  for (const Grip& g : scene.grips) {
+    const int owner = add_owner(g.name, g.velocity);
+    c.grips.push_back({owner, lay_points(g.region, {}, l, g.particles_per_cell), 0.5 / g.particles_per_cell});
+  }
+}
+
+template <class Real>
+void list_constraints(const Plan& plan, State<Real, 2>& s) {
+  Constraints& c = s.constraints;
+  for (ConstraintOwner& o : c.owners)
+    for (int axis = 0; axis < 2; ++axis)
+      if (o.velocity[axis]) {
+        o.now[axis] = (*o.velocity[axis])(s.clock.time);
+        o.next[axis] = (*o.velocity[axis])(s.clock.time + s.clock.dt);
+      }
+  std::vector<Constraint> list = c.fixed;
+  for (size_t i = 0; i < list.size(); ++i)
+    c.at_node[list[i].node] = static_cast<int>(i) + 1;
+  with_shape(plan.shape, [&](auto shape) {
+    for (const GripBlock& g : c.grips)
+      claim_grip<typename decltype(shape)::type>(list, c.at_node, s.grid.lattice, g,
+                                                 c.owners[static_cast<size_t>(g.owner)]);
+  });
+  for (const Constraint& k : list)
+    c.at_node[k.node] = 0;
+  c.list.resize(static_cast<long>(list.size()));
+  std::copy(list.begin(), list.end(), c.list.begin());
+  c.impulse.resize(c.list.size());
+}
+
+template <class Real>
+void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double impulse_weight) {
+  Constraints& c = s.constraints;
+  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
+  const Constraint* list = c.list.data();
+  const ConstraintOwner* owners = c.owners.data();
+  Vec2* impulse = c.impulse.data();
+  const Real* mass = s.grid.mass.data();
+  Real* q = stage == Stage::again ? s.grid.again.data() : stage == Stage::term ? s.grid.next.data() : s.grid.q.data();
+  const bool momenta = stage == Stage::before || stage == Stage::again;
+  const double inv_dt = 1 / s.clock.dt;
+  exec::parallel_for(space, "prescribe velocities", c.list.size(), [=](long n) {
+    const Constraint k = list[n];
+    double given[2] = {0, 0};
+    for (int f = 0; f < slots.count(k.node); ++f) {
+      const long slot = slots.of(k.node, f);
+      const double m = mass[slot];
+      if (!(m > 0))
+        continue;
+      for (int axis = 0; axis < 2; ++axis) {
+        if (!(k.mask & (1u << axis)))
+          continue;
+        const ConstraintOwner& o = owners[k.owner[axis]];
+        const double v = stage == Stage::term ? 0 : stage == Stage::before ? o.now[axis] : o.next[axis];
+        Real& value = q[4 * slot + axis];
+        const double change = momenta ? m * v - value : m * (v - value);
+        value = Real(momenta ? m * v : v);
+        if (stage == Stage::after)
+          q[4 * slot + 2 + axis] += Real(change / m * inv_dt);
+        given[axis] += change;
+      }
+    }
+    impulse[n] = {given[0], given[1]};
+  });
+  if (impulse_weight == 0)
+    return;
+  for (long n = 0; n < c.list.size(); ++n) {
+    const Vec2 x = s.grid.lattice.position(list[n].node);
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(list[n].mask & (1u << axis)))
+        continue;
+      const Vec2 part = impulse_weight * (axis == 0 ? Vec2{impulse[n].x, 0} : Vec2{0, impulse[n].y});
+      ConstraintOwner& o = c.owners[static_cast<size_t>(list[n].owner[axis])];
+      o.impulse += part;
+      o.torque_impulse += cross(x, part);
+      o.work_now += (axis == 0 ? part.x : part.y) * 0.5 * (o.now[axis] + o.next[axis]);
+    }
+  }
+}
+
+template <class Real>
+void settle_constraints(State<Real, 2>& s) {
+  Constraints& c = s.constraints;
+  for (ConstraintOwner& o : c.owners) {
+    o.reaction = (1 / s.clock.dt) * o.impulse;
+    s.ledger.momentum.impulse += o.impulse;
+    s.ledger.momentum.torque_impulse += o.torque_impulse;
+    s.ledger.energy.external_work += o.work_now;
+    o.work += o.work_now;
+    o.impulse = {};
+    o.torque_impulse = o.work_now = 0;
+  }
+  for (GripBlock& g : c.grips) {
+    const ConstraintOwner& o = c.owners[static_cast<size_t>(g.owner)];
+    const Vec2 move = 0.5 * s.clock.dt * Vec2{o.now[0] + o.next[0], o.now[1] + o.next[1]};
+    for (Vec2& p : g.points)
+      p += move;
+  }
+}
+
+template void make_constraints(const Scene&, State<double, 2>&);
+template void list_constraints(const Plan&, State<double, 2>&);
+template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage, double);
+template void settle_constraints(State<double, 2>&);
+
+}  // namespace riven

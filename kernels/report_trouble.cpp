@@ -1,0 +1,79 @@
+#include "kernels/report_trouble.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace riven {
+
+namespace {
+
+template <class Real>
+std::string where(const State<Real, 2>& s, long i) {
+  const auto& p = s.particles;
+  return fmt::format("step {}, time {:.6g} s, particle {} (body {}) at ({:.6g}, {:.6g}) m", s.clock.step, s.clock.time,
+                     p.id[i], p.body[i] + 1, p.x[0][i], p.x[1][i]);
+}
+
+constexpr const char* cures = "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; shape = \"ugimp\"";
+
+template <class Real>
+double det_F(const Particles<Real, 2>& p, long i) {
+  return p.J.empty() ? p.F[0][i] * p.F[3][i] - p.F[1][i] * p.F[2][i] : p.J[i];
+}
+
+}  // namespace
+
+template <class Real>
+void particle_left_grid(const State<Real, 2>& s, long i) {
+  const Lattice& l = s.grid.lattice;
+  const Vec2 a = l.position(l.wall_lower[0], l.wall_lower[1]), b = l.position(l.wall_upper[0], l.wall_upper[1]);
+  fail({Exit::unstable, "a particle left the grid", where(s, i),
+        fmt::format("velocity ({:.4g}, {:.4g}) m/s", s.particles.v[0][i], s.particles.v[1][i]),
+        fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m", a.x, a.y, b.x, b.y),
+        std::string("if it flew there on purpose, a larger [grid]; if it was thrown out, ") + cures});
+}
+
+template <class Real>
+void check_particles(const State<Real, 2>& s) {
+  const auto& p = s.particles;
+  if (!std::isfinite(s.watch.largest_move))
+    for (long i = 0; i < p.count(); ++i)
+      if (!std::isfinite(p.x[0][i] + p.x[1][i] + p.v[0][i] + p.v[1][i]))
+        fail({Exit::unstable, "a particle's motion is not a number any more", where(s, i),
+              fmt::format("velocity ({}, {}) m/s", p.v[0][i], p.v[1][i]), "finite", cures});
+  if (!(s.watch.least_J > 0))
+    for (long i = 0; i < p.count(); ++i)
+      if (!(det_F(p, i) > 0))
+        fail({Exit::unstable, "a particle turned inside out", where(s, i), fmt::format("det F = {:.4g}", det_F(p, i)),
+              "det F > 0", cures});
+  if (s.watch.largest_move > s.grid.lattice.h)
+    for (long i = 0; i < p.count(); ++i)
+      if (std::max(std::abs(p.v[0][i]), std::abs(p.v[1][i])) * s.clock.dt > 0.9 * s.grid.lattice.h)
+        fail({Exit::unstable, "a particle moved further than a cell in one step", where(s, i),
+              fmt::format("velocity ({:.4g}, {:.4g}) m/s", p.v[0][i], p.v[1][i]),
+              fmt::format("{:.4g} m/s, a cell in a step", s.grid.lattice.h / s.clock.dt), cures});
+}
+
+template <class Real>
+void check_energy(const State<Real, 2>& s, double limit) {
+  const Energy& e = s.ledger.energy;
+  if (e.relative_error() <= limit)
+    return;
+  const auto& p = s.particles;
+  long fastest = 0;
+  for (long i = 1; i < p.count(); ++i)
+    if (std::hypot(p.v[0][i], p.v[1][i]) > std::hypot(p.v[0][fastest], p.v[1][fastest]))
+      fastest = i;
+  fail({Exit::unstable, "energy grows without work being done; the fastest particle is named", where(s, fastest),
+        fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * e.relative_error(), e.largest),
+        fmt::format("{:.3g} % (limits.energy_growth)", 100 * limit), cures});
+}
+
+template void particle_left_grid(const State<double, 2>&, long);
+template void check_particles(const State<double, 2>&);
+template void check_energy(const State<double, 2>&, double);
+
+}  // namespace riven

@@ -1,0 +1,20 @@
+// When a simulation goes wrong: finds the first offending particle and says where it is, which limit it broke and
+// what to try.
+#pragma once
+#include "core/state/state.hpp"
+
+namespace riven {
+
+template <class Real>
+[[noreturn]] void particle_left_grid(const State<Real, 2>&, long particle);
+
+/// Throws Error (unstable) if the last step left a number that is none, or a det F that is not positive.
+template <class Real>
+void check_particles(const State<Real, 2>&);
+
+/// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than `limit` of the largest
+/// energy.
+template <class Real>
+void check_energy(const State<Real, 2>&, double limit);
+
+}  // namespace riven

@@ -1,0 +1,55 @@
+// A scene in motion: its plan, its state, and the time step as a list of tasks.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+#include "kernels/contact.hpp"
+
+namespace riven {
+
+class Simulation;
+
+/// One line of the step. `effect` is what asked for it, empty for what every step needs.
+struct Task {
+  std::string label;
+  std::string effect;
+  std::function<void(Simulation&)> run;
+  long calls = 0;
+  double seconds = 0;
+};
+
+class Simulation {
+ public:
+  /// Scene and space must outlive the simulation. Throws Error (bad input).
+  Simulation(const Scene& scene, const exec::Space& space);
+
+  /// One time step: the tasks, in order. Throws Error (unstable) when the step went wrong.
+  void step();
+  bool finished() const { return state.clock.time >= scene.end_time * (1 - 1e-12); }
+  /// Brings energies and momenta in the ledger up to date, and checks them.
+  void take_stock();
+
+  const Scene& scene;
+  const exec::Space& space;
+  const Plan plan;
+  State<double, 2> state;
+  std::vector<Task> tasks;
+
+  // contact's work space and what it did so far
+  ContactSums contact_sums;
+  ContactReport contact_before, contact_after, contact_again;
+
+  Vec2 gravity() const;         ///< body force per mass now, m/s^2
+  double grid_damping() const;  ///< 1/s
+  double particle_damping() const;
+  /// How much of the impulses given before the momentum update reaches the particles.
+  double early_impulse() const;
+};
+
+/// The tasks of a step, as the plan asks. Printed by `riven plan` and, with times, at the end of a run.
+std::vector<Task> assemble_step(const Scene&, const Plan&);
+
+}  // namespace riven

@@ -1,0 +1,113 @@
+#include "kernels/sort_particles.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/exec/parallel.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/report_trouble.hpp"
+
+namespace riven {
+
+namespace {
+
+constexpr int cells_per_tile = Lattice::tile * Lattice::tile;
+
+/// Sorting key of a position: tile by tile, cell by cell; -1 outside of the walls.
+template <class Shape, class Real>
+RIVEN_INLINE int key_of(const Lattice& l, Real X, Real Y) {
+  const int i = Shape::cell(X), j = Shape::cell(Y);
+  const bool inside =
+      i >= l.wall_lower[0] - 1 && i <= l.wall_upper[0] + 1 && j >= l.wall_lower[1] - 1 && j <= l.wall_upper[1] + 1;
+  const int tile = j / Lattice::tile * l.tiles_x() + i / Lattice::tile;
+  return inside ? tile * cells_per_tile + j % Lattice::tile * Lattice::tile + i % Lattice::tile : -1;
+}
+
+/// Tiles that hold particles, those of one colour together: colour = (x parity) + 2 (y parity).
+void colour(const Lattice& l, Tiles& t) {
+  t.by_colour.clear();
+  for (int c = 0; c < 4; ++c) {
+    t.colour_start[c] = static_cast<int>(t.by_colour.size());
+    for (int y = c / 2; y < l.tiles_y(); y += 2)
+      for (int x = c % 2; x < l.tiles_x(); x += 2) {
+        const int tile = y * l.tiles_x() + x;
+        if (t.start[tile] < t.start[tile + 1])
+          t.by_colour.push_back(tile);
+      }
+  }
+  t.colour_start[4] = static_cast<int>(t.by_colour.size());
+}
+
+/// Moves one array to the new order, through `spare`.
+template <class T>
+void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& spare, const int* order) {
+  spare.resize(array.size());
+  T* to = spare.data();
+  const T* from = array.data();
+  exec::parallel_for(space, "sort particles: move", array.size(), [=](long i) { to[i] = from[order[i]]; });
+  array.swap(spare);
+}
+
+}  // namespace
+
+template <class Real>
+bool sort_due(const State<Real, 2>& s) {
+  const bool never = s.particles.tiles.start.empty();
+  // the next step may move particles as far as the last one did, and a little more
+  return never || s.watch.drift + 1.5 * s.watch.largest_move > 0.95 * s.grid.lattice.h;
+}
+
+template <class Real>
+void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+  auto& p = s.particles;
+  const Lattice l = s.grid.lattice;
+  const long n = p.count();
+  exec::Array<int> key(n), order(n);
+  const Real *x = p.x[0].data(), *y = p.x[1].data();
+  const Real ox = Real(l.origin.x), oy = Real(l.origin.y), inv = Real(1 / l.h);
+  with_shape(plan.shape, [&](auto shape) {
+    exec::parallel_for(space, "sort particles: keys", n, [=, key = key.data()](long i) {
+      key[i] = key_of<typename decltype(shape)::type>(l, (x[i] - ox) * inv, (y[i] - oy) * inv);
+    });
+  });
+  const long keys = static_cast<long>(l.tiles_x()) * l.tiles_y() * cells_per_tile;
+  exec::Array<int> start(keys + 1);
+  for (long i = 0; i < n; ++i) {
+    if (key[i] < 0)
+      particle_left_grid(s, i);
+    ++start[key[i] + 1];
+  }
+  for (long k = 0; k < keys; ++k)
+    start[k + 1] += start[k];
+  const int tiles = l.tiles_x() * l.tiles_y();
+  p.tiles.start.resize(tiles + 1);
+  for (int t = 0; t <= tiles; ++t)
+    p.tiles.start[t] = start[long{t} * cells_per_tile];
+  for (long i = 0; i < n; ++i)
+    order[start[key[i]]++] = static_cast<int>(i);
+
+  exec::Array<Real> spare_real;
+  exec::Array<int> spare_int;
+  exec::Array<std::uint8_t> spare_byte;
+  p.each_array([&](auto& a) {
+    using T = std::remove_reference_t<decltype(a[0])>;
+    if constexpr (std::is_same_v<T, Real>)
+      permute(space, a, spare_real, order.data());
+    else if constexpr (std::is_same_v<T, int>)
+      permute(space, a, spare_int, order.data());
+    else
+      permute(space, a, spare_byte, order.data());
+  });
+  s.fields.fields.zero();
+  colour(l, p.tiles);
+  for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite})
+    a->resize(tiles);
+  s.watch.drift = 0;
+  for (long i = 0; i < static_cast<long>(s.loads.position.size()); ++i)
+    s.loads.position[static_cast<size_t>(p.id[i])] = static_cast<int>(i);
+}
+
+template bool sort_due(const State<double, 2>&);
+template void sort_particles(const exec::Space&, const Plan&, State<double, 2>&);
+
+}  // namespace riven

@@ -1,0 +1,17 @@
+// Sorts the particles by tile and, within a tile, by the cell of the nodes they see; stable, so that the order is a
+// function of the state alone. Every particle array moves, the ids with it.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// True when some particle may have drifted further from its sorted cell than the tiles' margin allows.
+template <class Real>
+bool sort_due(const State<Real, 2>&);
+
+/// Throws Error (unstable) naming a particle that is outside of the grid's walls.
+template <class Real>
+void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);
+
+}  // namespace riven

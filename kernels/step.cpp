@@ -1,0 +1,173 @@
+// The time step, assembled once from the plan. Order of work: CRAMP (Nairn 2003, appendix) with four velocity fields
+// (Nairn and Aimene, section 2.1).
+#include <cmath>
+
+#include "core/exec/timers.hpp"
+#include "core/state/make_state.hpp"
+#include "kernels/advance_grid.hpp"
+#include "kernels/apply_loads.hpp"
+#include "kernels/contact_step.hpp"
+#include "kernels/crack_step.hpp"
+#include "kernels/grid_to_particle.hpp"
+#include "kernels/higher_orders.hpp"
+#include "kernels/particle_to_grid.hpp"
+#include "kernels/prescribe_velocities.hpp"
+#include "kernels/report_trouble.hpp"
+#include "kernels/simulation.hpp"
+#include "kernels/sort_particles.hpp"
+#include "kernels/tally.hpp"
+#include "kernels/time_step.hpp"
+#include "kernels/update_stress.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Steps between two measurements of the fastest wave and particle, unless particles speed up sooner.
+constexpr long speed_interval = 20;
+
+void set_time_step(Simulation& m) {
+  Clock& c = m.state.clock;
+  const bool faster = m.state.watch.largest_move > 1.2 * c.measured_speed * c.dt;
+  if (c.step % speed_interval == 0 || faster) {
+    const Speeds v = measure_speeds(m.space, m.plan, m.state);
+    choose_time_step(m.scene, v, m.state);
+    c.measured_speed = v.particle + 1e-3 * v.wave;
+    c.stable_dt = c.dt;
+    c.stable_limiter = c.limiter;
+  }
+  c.dt = c.stable_dt;
+  c.limiter = c.stable_limiter;
+  const double left = m.scene.end_time - c.time;
+  if (c.dt > left) {
+    c.dt = left;
+    c.limiter = "end of the run";
+  }
+}
+
+void sort_if_due(Simulation& m) {
+  if (sort_due(m.state))
+    sort_particles(m.space, m.plan, m.state);
+}
+
+double half_if_averaged(const Simulation& m) {
+  return m.plan.update == StressUpdate::usavg ? 0.5 * m.state.clock.dt : m.state.clock.dt;
+}
+
+void book_fields(Simulation& m) {
+  const double dt = m.state.clock.dt, damping = m.grid_damping();
+  const GridSums sums = grid_sums(m.space, m.state, damping);
+  Ledger& l = m.state.ledger;
+  const Vec2 g = m.gravity();
+  l.energy.external_work += dt * dot(sums.momentum, g);
+  l.momentum.impulse += dt * sums.mass * g + sums.damping_impulse;
+  l.momentum.torque_impulse += dt * cross(sums.moment, g) + sums.damping_torque;
+  l.energy.damping += sums.damping_work;
+}
+
+TransferRule rule(const Simulation& m) {
+  return transfer_rule(m.plan, m.scene.pic_fraction, m.particle_damping(), m.state.clock.dt);
+}
+
+}  // namespace
+
+std::vector<Task> assemble_step(const Scene&, const Plan& p) {
+  std::vector<Task> list;
+  const auto add = [&](bool wanted, const char* label, const char* effect, std::function<void(Simulation&)> run) {
+    if (wanted)
+      list.push_back({label, effect, std::move(run)});
+  };
+  const bool before = p.stress_before(), again = p.extrapolate_again();
+  const bool fields = p.body_force || p.grid_damping;
+
+  add(true, "time step", "", set_time_step);
+  add(true, "sort particles", "", sort_if_due);
+  add(p.cracks, "hash cracks", "cracks", hash_if_due);
+  add(p.cracks, "determine fields", "cracks", find_fields);
+  add(true, "clear grid", "", [](Simulation& m) { clear_grid(m.space, m.state); });
+  add(true, "particle to grid", "",
+      [before](Simulation& m) { particle_to_grid(m.space, m.plan, m.state, !before, m.gravity()); });
+  add(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact);
+  add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
+    list_constraints(m.plan, m.state);
+    prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
+  });
+  add(p.contact, "contact before", "contact", contact_before_update);
+  add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
+  add(before, "stress before, forces", "",
+      [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, half_if_averaged(m), m.gravity()); });
+  add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.plan, m.state); });
+  add(true, "advance grid", "", [before](Simulation& m) { advance_grid(m.space, m.state, before, m.grid_damping()); });
+  add(p.constraints, "boundary after", "boundary",
+      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after, 1); });
+  add(p.contact, "contact after", "contact", contact_after_update);
+  add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields);
+  add(p.particle_damping, "particle damping sums", "particle damping",
+      [](Simulation& m) { book_particle_damping(m.space, m.particle_damping(), m.state); });
+  add(p.higher_order() && p.order > 1, "higher orders", "higher orders",
+      [](Simulation& m) { higher_orders(m.space, m.plan, m.state); });
+  add(p.higher_order() && p.order > 1 && p.contact, "contact on higher orders", "higher orders", contact_on_high);
+  add(!again, "grid to particle", "",
+      [before](Simulation& m) { grid_to_particle(m.space, m.plan, m.state, rule(m), !before); });
+  add(again, "grid to particle, extrapolate again", "", [](Simulation& m) {
+    m.state.grid.again.zero();
+    grid_to_particle_again(m.space, m.plan, m.state, rule(m));
+  });
+  add(again && p.constraints, "boundary again", "boundary",
+      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::again, 0); });
+  add(again && p.contact, "contact again", "contact", contact_after_extrapolation);
+  add(again, "velocities again", "",
+      [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
+  add(again, "stress after, move", "",
+      [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state, half_if_averaged(m)); });
+  add(p.cracks, "move cracks", "cracks", move_with_grid);
+  add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
+  add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) { settle_constraints(m.state); });
+  return list;
+}
+
+Simulation::Simulation(const Scene& s, const exec::Space& where)
+    : scene(s), space(where), plan(make_plan(s)), tasks(assemble_step(s, plan)) {
+  make_state(scene, plan, state);
+  if (plan.constraints)
+    make_constraints(scene, state);
+  if (plan.loads)
+    make_loads(scene, state);
+  sort_particles(space, plan, state);
+  tally(space, plan, state);
+}
+
+void Simulation::step() {
+  for (Task& t : tasks) {
+    const double start = exec::Stopwatch::now();
+    t.run(*this);
+    t.seconds += exec::Stopwatch::now() - start;
+    ++t.calls;
+  }
+  state.clock.time += state.clock.dt;
+  ++state.clock.step;
+  check_particles(state);
+}
+
+void Simulation::take_stock() {
+  tally(space, plan, state);
+  check_energy(state, scene.limits.energy_growth);
+}
+
+Vec2 Simulation::gravity() const {
+  const auto part = [&](int axis) {
+    return scene.body_force[axis] ? (*scene.body_force[axis])(state.clock.time) : 0.0;
+  };
+  return {part(0), part(1)};
+}
+double Simulation::grid_damping() const {
+  return scene.grid_damping ? (*scene.grid_damping)(state.clock.time) : 0;
+}
+double Simulation::particle_damping() const {
+  return scene.particle_damping ? (*scene.particle_damping)(state.clock.time) : 0;
+}
+double Simulation::early_impulse() const {
+  return plan.transfer == Transfer::flip ? 0 : plan.transfer == Transfer::pic ? scene.pic_fraction : 1;
+}
+
+}  // namespace riven

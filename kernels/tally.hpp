@@ -1,0 +1,17 @@
+// Energies and momenta of all particles, summed in a fixed order.
+#pragma once
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// Brings the ledger's present values up to date: kinetic and strain energy, momentum and angular momentum about the
+/// origin, and their scales.
+template <class Real>
+void tally(const exec::Space&, const Plan&, State<Real, 2>&);
+
+/// Books the impulse and the energy that damping of the particles' own velocities takes in this step.
+template <class Real>
+void book_particle_damping(const exec::Space&, double damping, State<Real, 2>&);
+
+}  // namespace riven

@@ -1,0 +1,56 @@
+#include "kernels/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/exec/parallel.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/law_state.hpp"
+
+namespace riven {
+
+namespace {
+
+struct Largest {
+  Speeds s;
+  Largest& operator+=(const Largest& o) {
+    s.wave = std::max(s.wave, o.s.wave);
+    s.particle = std::max(s.particle, o.s.particle);
+    s.sum = std::max(s.sum, o.s.sum);
+    return *this;
+  }
+};
+
+}  // namespace
+
+template <class Real>
+Speeds measure_speeds(const exec::Space& space, const Plan& plan, const State<Real, 2>& s) {
+  return with_law<Real>(plan.law, [&](auto law) {
+    using Law = typename decltype(law)::type;
+    const BodyLookup<Law> of = laws<Law>(s);
+    const auto& p = s.particles;
+    return exec::parallel_reduce<Largest>(space, "time step", p.count(),
+                                          [&, of](long i) {
+                                            const double c = of.of(i).wave_speed(law_state<Law>(p, i)),
+                                                         v = std::hypot(p.v[0][i], p.v[1][i]);
+                                            return Largest{{c, v, c + v}};
+                                          })
+        .s;
+  });
+}
+
+template <class Real>
+void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
+  Clock& c = s.clock;
+  c.dt = scene.cfl * s.grid.lattice.h / v.sum;
+  c.limiter = v.particle > v.wave ? "particle speed" : "wave speed";
+  if (scene.dt_max < c.dt) {
+    c.dt = scene.dt_max;
+    c.limiter = "dt_max";
+  }
+}
+
+template Speeds measure_speeds(const exec::Space&, const Plan&, const State<double, 2>&);
+template void choose_time_step(const Scene&, const Speeds&, State<double, 2>&);
+
+}  // namespace riven

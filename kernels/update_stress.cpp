@@ -1,0 +1,125 @@
+#include "kernels/update_stress.hpp"
+
+#include <algorithm>
+
+#include "kernels/dispatch.hpp"
+#include "kernels/stress_update.hpp"
+#include "kernels/tiles.hpp"
+#include "kernels/watch.hpp"
+
+namespace riven {
+
+namespace {
+
+template <bool Cracked, class Real, class Shape>
+RIVEN_INLINE bool gather_gradients(const Block<Real, Shape>& w, long first, int count, const Real* q, int nx,
+                                   const ExtraSlots<Real>& extra, GradientLanes<Real>& g) {
+  if (Cracked && any_crossing(extra, first, count)) {
+    for (int k = 0; k < count; ++k) {
+      const std::uint32_t word = extra.word[first + k];
+      g.set(k, word ? gather_fields<true>(w, k, q, word, extra) : gather<true>(w, k, q, nx));
+    }
+    return true;
+  }
+  for (int k = 0; k < count; ++k)
+    g.set(k, gather<true>(w, k, q, nx));
+  return false;
+}
+
+template <class Shape, class Law, bool Cracked, class Real>
+void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt, Vec2 gravity) {
+  constexpr int L = exec::lanes;
+  Real* q = s.grid.q.data();
+  const int nx = s.grid.lattice.nx;
+  const ParticleView<Real> p = view(s.particles);
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const BodyLookup<Law> law = laws<Law>(s);
+  const WatchTiles see(s.watch);
+  const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(dt);
+  scatter_tiles<false>(space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice,
+                       static_cast<Real*>(nullptr), q, [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+                         Block<Real, Shape> w;
+                         GradientLanes<Real> gradient;
+                         TileWatch<Real> seen;
+                         for (long first = begin; first < end; first += L) {
+                           const int count = static_cast<int>(std::min<long>(L, end - first));
+                           w.weigh(at, first);
+                           const bool crossing = gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
+                           seen.least_J(update_stress_lanes(p, first, count, gradient, step, law));
+                           for (int k = 0; k < count; ++k) {
+                             const long i = first + k;
+                             const Real m = p.mass[i], txy = -m * p.sxy[i];
+                             const Quad<Real> A{Real(0), Real(0), m * bx, m * by},
+                                 B{Real(0), Real(0), -m * p.sxx[i], txy}, C{Real(0), Real(0), txy, -m * p.syy[i]};
+                             if (crossing && extra.word[i] != 0)
+                               scatter_fields<false>(w, k, Real(0), A, B, C, to, extra.word[i], extra,
+                                                     static_cast<Real*>(nullptr), q);
+                             else
+                               scatter<false, true>(w, k, Real(0), A, B, C, to);
+                           }
+                         }
+                         see.put_J(tile, seen);
+                       });
+  watch_J(s);
+}
+
+template <class Shape, class Law, bool Cracked, class Real>
+void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
+  constexpr int L = exec::lanes;
+  const Real* again = s.grid.again.data();
+  const int nx = s.grid.lattice.nx;
+  const ParticleView<Real> p = view(s.particles);
+  const Positions<Real> at = positions(s);
+  const ExtraSlots<Real> extra = extra_slots(s, false);
+  const BodyLookup<Law> law = laws<Law>(s);
+  const WatchTiles see(s.watch);
+  const Real step = Real(dt);
+  each_tile(space, "stress after, move", s.particles.tiles, [=](int tile, long begin, long end) {
+    Block<Real, Shape> w;
+    GradientLanes<Real> gradient;
+    TileWatch<Real> seen;
+    for (long first = begin; first < end; first += L) {
+      const int count = static_cast<int>(std::min<long>(L, end - first));
+      w.weigh(at, first);
+      gather_gradients<Cracked>(w, first, count, again, nx, extra, gradient);
+      seen.least_J(update_stress_lanes(p, first, count, gradient, step, law));
+      exec::for_lanes(count, [&](int k) {
+        p.x[first + k] += p.step_x[first + k];
+        p.y[first + k] += p.step_y[first + k];
+      });
+    }
+    see.put_J(tile, seen);
+  });
+  watch_J(s);
+}
+
+}  // namespace
+
+template <class Real>
+void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt, Vec2 gravity) {
+  with_shape(plan.shape, [&](auto shape) {
+    with_flag(plan.cracks, [&](auto cracked) {
+      with_law<Real>(plan.law, [&](auto law) {
+        run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value>(
+            space, plan, s, dt, gravity);
+      });
+    });
+  });
+}
+
+template <class Real>
+void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt) {
+  with_shape(plan.shape, [&](auto shape) {
+    with_flag(plan.cracks, [&](auto cracked) {
+      with_law<Real>(plan.law, [&](auto law) {
+        run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value>(space, s, dt);
+      });
+    });
+  });
+}
+
+template void update_stress_and_forces(const exec::Space&, const Plan&, State<double, 2>&, double, Vec2);
+template void update_stress_and_move(const exec::Space&, const Plan&, State<double, 2>&, double);
+
+}  // namespace riven

@@ -1,0 +1,64 @@
+// The state as kernels see it: pointers and numbers, captured by value.
+#pragma once
+#include "core/state/state.hpp"
+#include "kernels/block.hpp"
+
+namespace riven {
+
+/// Particle arrays; null where the plan did not ask for an array.
+template <class Real>
+struct ParticleView {
+  Real *x, *y, *vx, *vy;
+  Real *Fxx, *Fxy, *Fyx, *Fyy, *J;
+  Real *sxx, *syy, *sxy;
+  Real* mass;
+  Real *step_x, *step_y;
+};
+
+template <class Real>
+ParticleView<Real> view(Particles<Real, 2>& p) {
+  return {p.x[0].data(),      p.x[1].data(),      p.v[0].data(), p.v[1].data(),    p.F[0].data(),
+          p.F[1].data(),      p.F[2].data(),      p.F[3].data(), p.J.data(),       p.stress[0].data(),
+          p.stress[1].data(), p.stress[2].data(), p.mass.data(), p.step[0].data(), p.step[1].data()};
+}
+
+template <class Real>
+Positions<Real> positions(const State<Real, 2>& s) {
+  const Lattice& l = s.grid.lattice;
+  return {s.particles.x[0].data(), s.particles.x[1].data(),
+          Real(l.origin.x),        Real(l.origin.y),
+          Real(1 / l.h),           {s.domains.data(), s.particles.body.data(), s.domains.size() == 1}};
+}
+
+/// How particles reach the extra slots; `shared` when several tiles may write to a slot at once.
+template <class Real>
+ExtraSlots<Real> extra_slots(const State<Real, 2>& s, bool shared) {
+  const Lattice& l = s.grid.lattice;
+  return {s.fields.fields.data(), s.fields.extra.data(), l.nodes(), l.nx, shared};
+}
+
+template <class Law, class Real>
+const Law* law_table(const LawTables<Real>& t) {
+  if constexpr (std::is_same_v<Law, LinearElastic<Real>>)
+    return t.linear.data();
+  else if constexpr (std::is_same_v<Law, NeoHookean<Real>>)
+    return t.neo.data();
+  else
+    return t.any.data();
+}
+
+template <class Law, class Real>
+BodyLookup<Law> laws(const State<Real, 2>& s) {
+  return {law_table<Law>(s.laws), s.particles.body.data(), s.domains.size() == 1};
+}
+
+/// True if some particle of the block sees a node across a crack.
+template <class Real>
+RIVEN_INLINE bool any_crossing(const ExtraSlots<Real>& e, long first, int count) {
+  std::uint32_t any = 0;
+  for (int k = 0; k < count; ++k)
+    any |= e.word[first + k];
+  return any != 0;
+}
+
+}  // namespace riven
