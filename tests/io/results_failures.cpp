@@ -1,0 +1,193 @@
+// Full disks, folders that cannot be written, kills: what was finished stays, and the message says what happened.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/frames.hpp"
+#include "io/history.hpp"
+#include "io/summary.hpp"
+#include "io/vtkhdf.hpp"
+#include "tests/io/results_sample.hpp"
+
+namespace riven {
+namespace {
+
+/// The message of the Error (file) that `act` must throw, or what went wrong instead.
+std::string file_error(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    return e.code() == Exit::file ? e.what() : "another exit code: " + std::string(e.what());
+  }
+  return "no error";
+}
+
+/// Runs in a process of its own in which no file may grow beyond `bytes`; true when `act` returns true and the
+/// process ends in good order.
+bool with_small_disk(rlim_t bytes, const std::function<bool()>& act) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    bool good = false;
+    try {
+      good = act();
+    } catch (const std::exception& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+    }
+    std::exit(good ? 0 : 1);  // with the clean-up of the HDF5 library
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+PolyData block(int n) {
+  PolyData d;
+  d.points.resize(3 * static_cast<std::size_t>(n), 0.1);
+  for (int a = 0; a < 8; ++a)
+    d.point_arrays.push_back({"a" + std::to_string(a), 1, "", std::vector<double>(static_cast<std::size_t>(n), a)});
+  return d;
+}
+
+// From a file that cannot take its first byte to one that lacks only its last ones.
+TEST(ResultsFailures, AFullDiskLosesOnlyTheFrameThatDidNotFit) {
+  const sample::Folder folder;
+  const auto path = folder / "frame.vtkhdf";
+  write_vtkhdf(path, block(30000), 1.0);
+  const auto whole = std::filesystem::file_size(path);
+  const std::string before = sample::text_of(path);
+  for (const rlim_t room :
+       {rlim_t{0}, rlim_t{100}, rlim_t{5000}, rlim_t{whole / 3}, rlim_t{whole - 5000}, rlim_t{whole - 1}}) {
+    EXPECT_TRUE(with_small_disk(room, [&] {
+      const std::string message = file_error([&] { write_vtkhdf(path, block(30000), 2.0); });
+      const bool names = message.find(path.string()) != std::string::npos;
+      const bool reason = message.find("File too large") != std::string::npos;
+      if (!names || !reason)
+        std::fprintf(stderr, "%s\n", message.c_str());
+      return names && reason;
+    })) << room;
+    EXPECT_EQ(sample::text_of(path), before) << "the older file stays as it was";
+    EXPECT_EQ(sample::leftovers(folder.path()), 0);
+  }
+}
+
+TEST(ResultsFailures, JoiningOnAFullDiskKeepsTheFrames) {
+  const sample::Folder folder;
+  for (int k = 0; k < 5; ++k)
+    write_vtkhdf(folder / ("p_00000" + std::to_string(k) + ".vtkhdf"), block(20000), k);
+  for (const rlim_t room : {rlim_t{2'000'000}, rlim_t{5'000'000}})
+    EXPECT_TRUE(with_small_disk(room, [&] {
+      return file_error([&] { assemble_vtkhdf(folder.path(), "p", folder / "p.vtkhdf"); }).find("File too large") !=
+             std::string::npos;
+    }));
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.vtkhdf"));
+  EXPECT_EQ(sample::leftovers(folder.path()), 0);
+  EXPECT_EQ(assemble_vtkhdf(folder.path(), "p", folder / "p.vtkhdf"), 5);
+}
+
+TEST(ResultsFailures, AFullDiskLeavesTheHistoryWithWholeRows) {
+  const sample::Folder folder;
+  EXPECT_TRUE(with_small_disk(1000, [&] {
+    History history(folder / "history.csv", {{"time", "s"}, {"kinetic", "J"}});
+    const std::string message = file_error([&] {
+      for (int k = 0; k < 1000; ++k)
+        history.row(std::vector{0.1 * k, 1.0 / 3});
+    });
+    return message.find("File too large") != std::string::npos;
+  }));
+  const std::string text = sample::text_of(folder / "history.csv");
+  EXPECT_GT(text.size(), 900u);
+  EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(ResultsFailures, ADeviceWithoutSpaceIsNamedAsSuch) {
+  const sample::Folder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "history.csv");
+  const std::string message = file_error([&] { History history(folder / "history.csv", {{"time", "s"}}); });
+  EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+  EXPECT_NE(message.find("free some space"), std::string::npos) << message;
+}
+
+TEST(ResultsFailures, AFolderThatCannotBeMadeIsNamed) {
+  const sample::Folder folder;
+  write_file(folder / "file", "not a folder");
+  const Scene scene = sample::scene();
+  for (const auto& bad : {folder / "file", folder / "file/below", std::filesystem::path("/proc/riven")}) {
+    const std::string message = file_error([&] { FrameWriter writer(bad, scene); });
+    EXPECT_NE(message.find(bad.string()), std::string::npos) << message;
+  }
+  if (geteuid() == 0)
+    return;  // whom permissions do not stop
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  const std::string message = file_error([&] { FrameWriter writer(folder / "out", scene); });
+  EXPECT_NE(message.find("Permission denied"), std::string::npos) << message;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+}
+
+TEST(ResultsFailures, AFolderThatVanishedIsNamed) {
+  const sample::Folder folder;
+  for (const auto& write : std::vector<std::function<void()>>{
+           [&] { write_vtkhdf(folder / "gone/a.vtkhdf", block(2), 0); },
+           [&] { write_summary(folder / "gone/summary.json", {}); },
+           [&] {
+             History history(folder / "gone/history.csv", {{"time", "s"}});
+           },
+       })
+    EXPECT_NE(file_error(write).find("No such file or directory"), std::string::npos);
+}
+
+TEST(ResultsFailures, ADamagedFrameIsNamed) {
+  const sample::Folder folder;
+  write_file(folder / "p_000000.vtkhdf", "no HDF5 at all");
+  const std::string message = file_error([&] { assemble_vtkhdf(folder.path(), "p", folder / "p.vtkhdf"); });
+  EXPECT_NE(message.find("p_000000.vtkhdf"), std::string::npos) << message;
+  EXPECT_EQ(sample::leftovers(folder.path()), 0);
+}
+
+// A process that writes frames and history as fast as it can is killed at some moment, several times.
+TEST(ResultsFailures, AKilledRunLeavesEveryFinishedFrameReadable) {
+  const Scene scene = sample::scene();
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    const sample::Folder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+      FrameWriter writer(folder.path(), scene);
+      History history(folder / "history.csv", {{"time", "s"}, {"kinetic", "J"}});
+      for (int k = 0; k < 100000; ++k) {
+        writer.write(k, sample::particles(k, k % 7), sample::cracks(k, k % 3));
+        history.row(std::vector{1.0 * k, 0.1 * k});
+      }
+      _exit(0);
+    }
+    while (!std::filesystem::exists(folder / "frames/particles_000003.vtkhdf"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::microseconds(700 * attempt));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+
+    const auto frames = list_frames(folder / "frames", "particles");
+    ASSERT_GE(frames.size(), 4u);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const TimedPolyData frame = read_vtkhdf(frames[k]);
+      EXPECT_EQ(frame.time, static_cast<double>(k));
+      EXPECT_EQ(frame.data.point_count(), sample::nx * sample::ny - static_cast<std::int64_t>(k % 7));
+    }
+    EXPECT_EQ(assemble_frames(folder.path()), static_cast<int>(frames.size()));
+    EXPECT_EQ(sample::text_of(folder / "history.csv").back(), '\n');
+    FrameWriter anew(folder.path(), scene);
+    EXPECT_EQ(sample::leftovers(folder.path()), 0) << "the next run clears away what the kill has left";
+  }
+}
+
+}  // namespace
+}  // namespace riven

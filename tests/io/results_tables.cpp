@@ -1,0 +1,159 @@
+// The history, the summary and the progress line.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/history.hpp"
+#include "io/progress.hpp"
+#include "io/summary.hpp"
+#include "tests/io/results_sample.hpp"
+
+namespace riven {
+namespace {
+
+const std::vector<HistoryColumn> columns = {{"time", "s"}, {"opening, left", "m"}, {"steps", ""}};
+
+TEST(ResultsHistory, NumbersComeBackBitForBit) {
+  const sample::Folder folder;
+  const std::vector<double> row = {1.0 / 3, -2.2250738585072014e-308, 1e22};
+  History(folder / "history.csv", columns).row(row);
+  const std::string text = sample::text_of(folder / "history.csv");
+  const std::size_t end = text.find('\n');
+  EXPECT_EQ(text.substr(0, end), "time [s],\"opening, left [m]\",steps [1]");
+  const char* at = text.c_str() + end + 1;
+  for (const double value : row) {
+    char* stop = nullptr;
+    EXPECT_EQ(std::strtod(at, &stop), value);
+    at = stop + 1;
+  }
+}
+
+TEST(ResultsHistory, RowsAreInTheFileAsSoonAsTheyAreWritten) {
+  const sample::Folder folder;
+  History history(folder / "history.csv", columns);
+  history.row(std::vector{0.0, 1.0, 2.0});
+  EXPECT_TRUE(sample::text_of(folder / "history.csv").ends_with("\n0,1,2\n"));
+  EXPECT_THROW(history.row(std::vector{1.0}), Error) << "a value per column";
+}
+
+TEST(ResultsHistory, AResumedRunGoesOnAtItsCheckpoint) {
+  const sample::Folder folder;
+  const auto path = folder / "history.csv";
+  {
+    History first(path, columns);
+    for (int k = 0; k < 5; ++k)
+      first.row(std::vector{0.25 * k, 1.0, 2.0});
+  }
+  write_file(path, sample::text_of(path) + "1.25,1");  // a row cut short by a kill
+  History(path, columns, 0.5).row(std::vector{0.75, 7.0, 8.0});
+  EXPECT_EQ(sample::text_of(path), "time [s],\"opening, left [m]\",steps [1]\n0,1,2\n0.25,1,2\n0.5,1,2\n0.75,7,8\n");
+  History other(path, {{"time", "s"}, {"other", ""}}, 0.5);
+  EXPECT_EQ(sample::text_of(path), "time [s],other [1]\n") << "rows of other columns are not kept";
+}
+
+TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
+  const sample::Folder folder;
+  Summary s;
+  s.scene = "sample";
+  s.status = "unstable";
+  s.message = "particle 7 left the grid";
+  s.steps = 1234567;
+  s.time = 1e-3;
+  s.effects = {"cracks", "contact"};
+  s.tasks = {{"particle to grid", "", 12, 0.5}};
+  s.energy.kinetic = 2;
+  s.energy.relative_error = std::nan("");
+  s.momentum_error = 1e-15;
+  s.angular_momentum_error = INFINITY;
+  s.warnings = {{"both sides", 3, {0.5, 0.25}}, {"third crack", 0, {}}};
+  s.probes = {{"opening", 1e-5, "m"}};
+  s.cracks = summarize_cracks(sample::cracks(1));
+  s.reactions = {{"upper", {1, -2}}};
+  write_summary(folder / "summary.json", s);
+  const auto j = nlohmann::json::parse(sample::text_of(folder / "summary.json"));
+  for (const char* key :
+       {"status", "steps", "time", "wall_seconds", "particles", "particle_steps_per_second", "threads", "exec",
+        "scatter", "effects", "tasks", "energy", "momentum_error", "warnings", "tips", "probes"})
+    EXPECT_TRUE(j.contains(key)) << key;
+  for (const char* key : {"kinetic", "strain", "external_work", "damping", "contact", "fracture", "numerical"})
+    EXPECT_TRUE(j["energy"][key].is_number()) << key;
+  EXPECT_EQ(j["steps"], 1234567);
+  EXPECT_EQ(j["message"], "particle 7 left the grid");
+  EXPECT_TRUE(j["energy"]["relative_error"].is_null()) << "not a number";
+  EXPECT_TRUE(j["angular_momentum_error"].is_null()) << "infinite";
+  EXPECT_EQ(j["momentum_error"], 1e-15);
+  EXPECT_EQ(j["tasks"][0]["label"], "particle to grid");
+  EXPECT_EQ(j["warnings"]["both sides"]["count"], 3);
+  EXPECT_EQ(j["warnings"]["both sides"]["first_place"][1], 0.25);
+  EXPECT_TRUE(j["warnings"]["third crack"]["first_place"].is_null());
+  EXPECT_EQ(j["probes"]["opening"]["value"], 1e-5);
+  EXPECT_EQ(j["cracks"][1]["name"], "slanted");
+  EXPECT_NEAR(j["cracks"][1]["max_opening"].get<double>(), 2e-5, 1e-17);
+  EXPECT_NEAR(j["cracks"][0]["length"].get<double>(), 4 * 0.8e-3, 1e-15);
+  EXPECT_EQ(j["reactions"]["upper"][1], -2);
+}
+
+TEST(ResultsProgress, TimesAreInUnitsForPeople) {
+  EXPECT_EQ(format_time(0), "0 s");
+  EXPECT_EQ(format_time(1.5), "1.50 s");
+  EXPECT_EQ(format_time(1.2345e-3), "1.23 ms");
+  EXPECT_EQ(format_time(9.996e-4), "1.00 ms");
+  EXPECT_EQ(format_time(85.34e-9), "85.3 ns");
+  EXPECT_EQ(format_time(851e-12), "851 ps");
+  EXPECT_EQ(format_duration(59.6), "1 min 0 s");
+  EXPECT_EQ(format_duration(3725), "1 h 2 min");
+  EXPECT_EQ(format_duration(INFINITY), "unknown");
+}
+
+TEST(ResultsProgress, TheLineSaysHowFarHowFastAndHowLong) {
+  EXPECT_EQ(progress_line({12345, 0.5e-3, 2e-3, 85e-9, "wave speed", 24.06e6, 75}),
+            " 25 %  step 12,345  500 us of 2.00 ms  dt 85.0 ns (wave speed)  24.1 M particle-steps/s  1 min 15 s left");
+}
+
+/// What a run of three steps writes to a descriptor.
+void run(int descriptor, bool quiet) {
+  Progress progress(0, 3, 1000, quiet, descriptor);
+  for (int step = 1; step <= 3; ++step)
+    progress.update(step, step, 1, "wave speed");
+}
+
+std::string read_all(int descriptor) {
+  char text[4096];
+  fcntl(descriptor, F_SETFL, O_NONBLOCK);
+  const ssize_t n = ::read(descriptor, text, sizeof text);
+  return n > 0 ? std::string(text, static_cast<std::size_t>(n)) : "";
+}
+
+TEST(ResultsProgress, ATerminalSeesTheEndAndANewLine) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(grantpt(terminal) | unlockpt(terminal), 0);
+  const int screen = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+  ASSERT_GE(screen, 0);
+  run(screen, true);
+  EXPECT_EQ(read_all(terminal), "");
+  run(screen, false);
+  const std::string seen = read_all(terminal);
+  EXPECT_NE(seen.find("\r100 %  step 3"), std::string::npos) << seen;
+  EXPECT_EQ(seen.find("step 2"), std::string::npos) << "at most one line a second, and the last";
+  EXPECT_TRUE(seen.ends_with("\n"));
+  EXPECT_LE(seen.size(), 80 + 8u) << "cut to the terminal's width";
+  close(screen);
+  close(terminal);
+}
+
+TEST(ResultsProgress, AFileSeesNothing) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  run(ends[1], false);
+  EXPECT_EQ(read_all(ends[0]), "");
+  close(ends[0]);
+  close(ends[1]);
+}
+
+}  // namespace
+}  // namespace riven
