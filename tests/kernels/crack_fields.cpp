@@ -1,0 +1,326 @@
+// The three passes hash, trace and assign against exact arithmetic and brute force, on random sets of cracks.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "tests/kernels/crack_reference.hpp"
+
+namespace riven {
+namespace {
+
+using namespace crack_scene;
+using crack_reference::Line;
+using crack_reference::Point;
+
+constexpr int cells = 6, per_cell = 64;  // coordinates are whole numbers of 1/64 cell
+constexpr double unit = 1.0 / per_cell;
+
+Vec2 real(Point p) {
+  return {double(p.x) * unit, double(p.y) * unit};
+}
+
+struct Case {
+  std::vector<Line> cracks;
+  std::vector<Point> particles;
+};
+
+/// Cracks of six kinds in turn, and particles, some of them on cracks and nodes.
+Case random_case(int number) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(number));
+  const auto pick = [&](long long low, long long high) {
+    return std::uniform_int_distribution<long long>(low, high)(random);
+  };
+  constexpr long long edge = cells * per_cell;
+  const auto anywhere = [&] { return Point{pick(20, edge - 20), pick(20, edge - 20)}; };
+  const auto on_node = [&] { return Point{per_cell * pick(1, cells - 1), per_cell * pick(1, cells - 1)}; };
+  Case c;
+  const long long count = pick(1, 4);
+  for (long long n = 0; n < count; ++n) {
+    Line line;
+    switch ((number + n) % 6) {
+      case 0:  // kinks
+        line.push_back(anywhere());
+        for (long long k = pick(1, 6); k > 0; --k)
+          line.push_back({line.back().x + pick(-60, 60), line.back().y + pick(-60, 60)});
+        break;
+      case 1: {  // on a grid line, with joints and tips on nodes and between them
+        const long long y = per_cell * pick(1, cells - 1), piece = std::array{16, 32, 64, 96}[pick(0, 3)];
+        const long long x = pick(0, 1) ? per_cell * pick(1, 3) : pick(30, 200);
+        for (long long k = 0, pieces = pick(1, 5); k <= pieces; ++k)
+          line.push_back({x + k * piece, y});
+        if (pick(0, 1))
+          for (Point& p : line)
+            std::swap(p.x, p.y);
+        break;
+      }
+      case 2:  // from node to node, the second part turning
+        line = {on_node(), on_node()};
+        if (pick(0, 1))
+          line.push_back(on_node());
+        break;
+      case 3: {  // zig-zag of period 0.7 cells
+        const long long x = pick(20, 150), y = pick(100, 250), height = pick(4, 40);
+        for (long long k = 0; k <= 8; ++k)
+          line.push_back({x + k * 22, y + (k % 2) * height});
+        break;
+      }
+      case 4:  // two long cracks that may cross
+        line = {anywhere(), anywhere()};
+        break;
+      default:  // a coarse lattice, to meet many ties; lines may fold back
+        for (long long k = pick(2, 5); k > 0; --k)
+          line.push_back({16 * pick(2, 22), 16 * pick(2, 22)});
+    }
+    for (Point& p : line)
+      p = {std::clamp(p.x, 1ll, edge - 1), std::clamp(p.y, 1ll, edge - 1)};
+    line.erase(std::unique(line.begin(), line.end()), line.end());
+    if (line.size() > 1)
+      c.cracks.push_back(line);
+  }
+  if (c.cracks.empty())
+    c.cracks.push_back({{100, 100}, {200, 130}});
+  for (int k = 0; k < 40; ++k)
+    c.particles.push_back({16 * pick(2, 22) + 8 * pick(0, 1), 16 * pick(2, 22)});
+  for (int k = 0; k < 30; ++k)
+    c.particles.push_back(anywhere());
+  for (const Line& line : c.cracks) {
+    c.particles.push_back(line[static_cast<size_t>(pick(0, static_cast<long long>(line.size()) - 1))]);
+    c.particles.push_back({(line[0].x + line[1].x) / 2, (line[0].y + line[1].y) / 2});
+  }
+  c.particles.push_back(on_node());
+  return c;
+}
+
+std::vector<Vec2> positions(const Case& c) {
+  std::vector<Vec2> x;
+  for (Point p : c.particles)
+    x.push_back(real(p));
+  return x;
+}
+
+Cracks cracks_of(const Case& c) {
+  std::vector<std::vector<Vec2>> lines;
+  for (const Line& line : c.cracks) {
+    lines.emplace_back();
+    for (Point p : line)
+      lines.back().push_back(real(p));
+  }
+  return crack_scene::cracks_of(lines);
+}
+
+std::vector<std::uint32_t> words_by_id(const Particles<double, 2>& p, const CrackFields& f) {
+  std::vector<std::uint32_t> words(static_cast<size_t>(p.count()));
+  for (long i = 0; i < p.count(); ++i)
+    words[static_cast<size_t>(p.id[i])] = f.fields[i];
+  return words;
+}
+
+/// Differences from the reference, as text; empty when there are none.
+template <class Shape>
+std::string compare(const Lattice& l, const Case& c, const Particles<double, 2>& p, const CrackFields& f,
+                    const long (&before)[2]) {
+  const Point origin{-Lattice::ghosts * per_cell, -Lattice::ghosts * per_cell};
+  const auto exact = crack_reference::determine<Shape>(l, quarter_cells(l), c.particles, c.cracks, unit, origin);
+  const auto words = words_by_id(p, f);
+  for (size_t id = 0; id < words.size(); ++id)
+    if (words[id] != exact.word[id])
+      return "particle " + std::to_string(id) + " at " + std::to_string(c.particles[id].x) + ", " +
+             std::to_string(c.particles[id].y) + ": " + std::to_string(words[id]) + ", exactly " +
+             std::to_string(exact.word[id]);
+  const long warnings[2] = {f.warning_both_sides - before[0], f.warning_third_crack - before[1]};
+  for (int kind = 0; kind < 2; ++kind) {
+    if (warnings[kind] != exact.warning[kind])
+      return "warnings of kind " + std::to_string(kind + 1);
+    if (before[kind] == 0 && warnings[kind] > 0 && !(f.warning_place[kind] == exact.first[kind]))
+      return "place of warning " + std::to_string(kind + 1);
+  }
+  size_t held = 0;
+  for (const NodeCracks& n : f.nodes) {
+    if (n.crack[0] < 0)
+      continue;
+    ++held;
+    const auto it = exact.node.find(n.node);
+    if (it == exact.node.end())
+      return "node " + std::to_string(n.node) + " holds a crack that it should not";
+    const auto& e = it->second;
+    for (size_t m = 0; m < 2; ++m) {
+      if ((n.crack[m] >= 0) != (m < e.crack.size()))
+        return "number of cracks of node " + std::to_string(n.node);
+      if (n.crack[m] < 0)
+        continue;
+      if (n.crack[m] != e.crack[m] || n.side[m] != e.side[m])
+        return "crack or side of node " + std::to_string(n.node);
+      const double length = norm(e.normal[m]);
+      if (length > 1e-6 && norm(n.normal[m] - e.normal[m] * (1 / length)) > 1e-9 / length)
+        return "normal of node " + std::to_string(n.node);
+      if (m == 1 && f.candidate_start[f.node_index[n.node] + 1] - f.candidate_start[f.node_index[n.node]] < 2)
+        return "no slots for the second crack of node " + std::to_string(n.node);
+    }
+  }
+  return held == exact.node.size() ? "" : "nodes that hold cracks";
+}
+
+template <class Shape>
+void run(const exec::Space& space, const Lattice& l, const Particles<double, 2>& p, const Cracks& cracks,
+         CrackFields& f) {
+  const auto domain = quarter_cells(l);
+  if (hash_due(space, l, cracks, f))
+    hash_cracks<Shape>(space, l, cracks, f);
+  determine_fields<Shape>(space, p, &domain, l, cracks, f);
+}
+
+/// Checks one case, then with all cracks moved by less than the hash's margin, so that an old hash serves.
+template <class Shape>
+std::string check(const exec::Space& space, int number, long (&seen)[2]) {
+  Case c = random_case(number);
+  const Lattice l = unit_cells(cells, cells);
+  const auto p = sorted_particles<Shape>(l, positions(c), in_order(c.particles.size()));
+  Cracks cracks = cracks_of(c);
+  CrackFields f;
+  run<Shape>(space, l, p, cracks, f);
+  if (std::string s = compare<Shape>(l, c, p, f, {0, 0}); !s.empty())
+    return s;
+  const long before[2] = {f.warning_both_sides, f.warning_third_crack};
+  std::mt19937_64 random(static_cast<std::uint64_t>(number));
+  long k = 0;
+  for (Line& line : c.cracks)
+    for (Point& at : line) {
+      at.x += static_cast<long long>(random() % 31) - 15;
+      at.y += static_cast<long long>(random() % 31) - 15;
+      cracks.plane[k++] = real(at);
+    }
+  if (hash_due(space, l, cracks, f))
+    return "hash due within its margin";
+  run<Shape>(space, l, p, cracks, f);
+  if (std::string s = compare<Shape>(l, c, p, f, before); !s.empty())
+    return "moved: " + s;
+  cracks.plane[0].x += 0.75;
+  if (!hash_due(space, l, cracks, f))
+    return "hash not due beyond its margin";
+  seen[0] += f.warning_both_sides;
+  seen[1] += f.warning_third_crack;
+  return "";
+}
+
+template <class Shape>
+void check_all(int first) {
+  const exec::Space serial;
+  long seen[2] = {0, 0};
+  for (int number = first; number < 10000; number += 3) {
+    const std::string wrong = check<Shape>(serial, number, seen);
+    ASSERT_EQ(wrong, "") << "crack set " << number;
+  }
+  EXPECT_GT(seen[0], 1000);  // the sets reach the cases that the warnings are about
+  EXPECT_GT(seen[1], 1000);
+}
+
+// 10,000 crack sets, each with an old and a fresh hash, shared among the shape functions
+TEST(CrackFields, EqualExactParityOnRandomCracksLinear) {
+  check_all<Linear>(0);
+}
+TEST(CrackFields, EqualExactParityOnRandomCracksUGimp) {
+  check_all<UGimp>(1);
+}
+TEST(CrackFields, EqualExactParityOnRandomCracksBSpline) {
+  check_all<BSpline>(2);
+}
+
+bool same_nodes(const CrackFields& a, const CrackFields& b) {
+  if (a.nodes.size() != b.nodes.size())
+    return false;
+  for (long f = 0; f < a.nodes.size(); ++f) {
+    const NodeCracks &x = a.nodes[f], &y = b.nodes[f];
+    if (x.node != y.node)
+      return false;
+    for (int m = 0; m < 2; ++m)
+      if (x.crack[m] != y.crack[m] || x.side[m] != y.side[m] || !(x.normal[m] == y.normal[m]) ||
+          !(x.normal0[m] == y.normal0[m]))
+        return false;
+  }
+  return true;
+}
+
+TEST(CrackFields, DoNotDependOnOrderThreadsOrSpace) {
+  struct Where {
+    exec::Kind kind;
+    int threads;
+  };
+  const Lattice l = unit_cells(cells, cells);
+  for (const Where where : {Where{exec::Kind::serial, 1}, Where{exec::Kind::openmp, 1}, Where{exec::Kind::openmp, 2},
+                            Where{exec::Kind::openmp, 4}, Where{exec::Kind::stdpar, 1}, Where{exec::Kind::stdpar, 2},
+                            Where{exec::Kind::stdpar, 4}}) {
+    const exec::Space serial, space(where.kind, where.threads);
+    for (int number = 0; number < 100; ++number) {
+      const Case c = random_case(number);
+      const Cracks cracks = cracks_of(c);
+      std::vector<int> ids = in_order(c.particles.size());
+      const auto p = sorted_particles<UGimp>(l, positions(c), ids);
+      std::shuffle(ids.begin(), ids.end(), std::mt19937(static_cast<unsigned>(number)));
+      const auto q = sorted_particles<UGimp>(l, positions(c), ids);
+      CrackFields a, b;
+      run<UGimp>(serial, l, p, cracks, a);
+      run<UGimp>(space, l, q, cracks, b);
+      ASSERT_EQ(words_by_id(p, a), words_by_id(q, b)) << number;
+      ASSERT_TRUE(same_nodes(a, b)) << number;
+      ASSERT_EQ(a.warning_both_sides, b.warning_both_sides);
+      ASSERT_EQ(a.warning_third_crack, b.warning_third_crack);
+      ASSERT_TRUE(a.warning_place[0] == b.warning_place[0] && a.warning_place[1] == b.warning_place[1]);
+      ASSERT_EQ(a.extra_slots, b.extra_slots);
+      for (int n = 0; n < l.nodes(); ++n)
+        ASSERT_EQ(a.extra[n], b.extra[n]);
+    }
+  }
+}
+
+TEST(CrackFields, AreClearedWhenParticlesMoveAway) {
+  const Lattice l = unit_cells(16, 16);
+  const exec::Space serial;
+  const Cracks cracks = crack_scene::cracks_of({{{2, 3.3}, {6, 3.4}}});
+  std::vector<Vec2> x{{3.3, 3.6}, {4.2, 3.1}, {12.1, 12.2}};
+  auto p = sorted_particles<UGimp>(l, x, in_order(3));
+  CrackFields f;
+  run<UGimp>(serial, l, p, cracks, f);
+  EXPECT_NE(words_by_id(p, f)[0], 0u);
+  EXPECT_NE(words_by_id(p, f)[1], 0u);
+  EXPECT_EQ(words_by_id(p, f)[2], 0u);
+  x[0] = {14.1, 13.2};
+  p = sorted_particles<UGimp>(l, x, {2, 1, 0});
+  run<UGimp>(serial, l, p, cracks, f);
+  EXPECT_EQ(words_by_id(p, f)[0], 0u);
+  EXPECT_NE(words_by_id(p, f)[1], 0u);
+  EXPECT_EQ(words_by_id(p, f)[2], 0u);
+}
+
+TEST(CrackFields, OfACrackOnAGridLineSplitTheNodesOnIt) {
+  // joints on every node and between them: particles above cross to the nodes on the line, those below do not
+  const Lattice l = unit_cells(8, 8);
+  const exec::Space serial;
+  const Cracks cracks = crack_scene::cracks_of({{{0, 4}, {8, 4}}}, 0.5);
+  std::vector<Vec2> x;
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 16; ++i)
+      x.push_back({0.25 + 0.5 * i, 0.25 + 0.5 * j});
+  const auto p = sorted_particles<UGimp>(l, x, in_order(x.size()));
+  CrackFields f;
+  run<UGimp>(serial, l, p, cracks, f);
+  const auto domain = quarter_cells(l);
+  for (long i = 0; i < p.count(); ++i) {
+    const auto ax = UGimp::axis(p.x[0][i] - l.origin.x, domain.axis[0]);
+    const auto ay = UGimp::axis(p.x[1][i] - l.origin.y, domain.axis[1]);
+    for (int k = 0; k < 9; ++k) {
+      if (ax.s[k % 3] == 0 || ay.s[k / 3] == 0)
+        continue;
+      const Vec2 node = l.position(ax.base + k % 3, ay.base + k / 3);
+      if (node.x < 0 || node.x > 8)
+        continue;
+      const bool across = p.x[1][i] > 4 ? node.y <= 4 : node.y > 4;
+      ASSERT_EQ((f.fields[i] >> (2 * k)) & 3u, across ? 1u : 0u) << p.x[0][i] << ' ' << p.x[1][i] << ' ' << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace riven

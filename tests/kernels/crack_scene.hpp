@@ -1,0 +1,78 @@
+// Small scenes for the crack kernels: a grid of unit cells, particles where a test wants them, sorted by tile and cell.
+#pragma once
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/math/shape.hpp"
+#include "core/state/bodies.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/grid.hpp"
+#include "core/state/particles.hpp"
+#include "kernels/assign_fields.hpp"
+#include "kernels/hash_cracks.hpp"
+
+namespace riven::crack_scene {
+
+inline Lattice unit_cells(int cells_x, int cells_y) {
+  return make_lattice({0, 0}, {double(cells_x), double(cells_y)}, 1);
+}
+
+inline DomainSetting<double, 2> quarter_cells(const Lattice& l) {
+  DomainSetting<double, 2> d;
+  for (int a = 0; a < 2; ++a)
+    d.axis[a] = {0.25, 1, l.wall_lower[a], l.wall_upper[a]};
+  return d;
+}
+
+inline Cracks cracks_of(const std::vector<std::vector<Vec2>>& lines, double resolution = 1e9,
+                        SurfaceUpdate update = SurfaceUpdate::xpic) {
+  Scene scene;
+  scene.surface_update = update;
+  for (const auto& points : lines) {
+    CrackLine line;
+    line.name = "crack " + std::to_string(scene.cracks.size());
+    line.points = points;
+    scene.cracks.push_back(line);
+  }
+  return make_cracks(scene, resolution);
+}
+
+/// Particles with the given ids, laid down in that order and then sorted.
+template <class Shape>
+Particles<double, 2> sorted_particles(const Lattice& l, const std::vector<Vec2>& x, const std::vector<int>& ids) {
+  const auto cell = [&](int id, int axis) {
+    const Vec2 at = (x[static_cast<size_t>(id)] - l.origin) * (1 / l.h);
+    return Shape::cell(axis == 0 ? at.x : at.y);
+  };
+  const auto tile = [&](int id) { return cell(id, 1) / Lattice::tile * l.tiles_x() + cell(id, 0) / Lattice::tile; };
+  std::vector<int> order = ids;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    const auto key = [&](int id) { return std::array{tile(id), cell(id, 1), cell(id, 0)}; };
+    return key(a) < key(b);
+  });
+  Particles<double, 2> p;
+  const long n = static_cast<long>(order.size());
+  for (auto& a : p.x)
+    a.resize(n);
+  p.body.resize(n);
+  p.id.resize(n);
+  p.tiles.start.resize(l.tiles_x() * l.tiles_y() + 1);
+  for (long i = 0; i < n; ++i) {
+    const int id = order[static_cast<size_t>(i)];
+    p.id[i] = id;
+    p.x[0][i] = x[static_cast<size_t>(id)].x;
+    p.x[1][i] = x[static_cast<size_t>(id)].y;
+    ++p.tiles.start[tile(id) + 1];
+  }
+  std::partial_sum(p.tiles.start.begin(), p.tiles.start.end(), p.tiles.start.begin());
+  return p;
+}
+
+inline std::vector<int> in_order(size_t n) {
+  std::vector<int> ids(n);
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+}  // namespace riven::crack_scene
