@@ -102,7 +102,10 @@ std::vector<Column> header(const std::string& line, const std::string& where) {
 }  // namespace
 
 std::vector<CrackRow> read_crack_file(const std::string& path, const std::string& where) {
-  const std::string text = read_text_file(path, "the crack file", where);
+  return parse_crack_file(read_text_file(path, "the crack file", where), path, where);
+}
+
+std::vector<CrackRow> parse_crack_file(std::string_view text, const std::string& path, const std::string& where) {
   std::vector<Column> columns;
   std::vector<CrackRow> rows;
   std::string_view rest = text;
