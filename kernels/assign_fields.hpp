@@ -37,32 +37,45 @@ struct SurfaceView {
 };
 SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields);
 
-/// v(s,i): the field of `node` for a point at x on the surface `side` of `crack`; `cell` is the cell of x by the shape
-/// function of the hash. Its own crack is crossed where the surface is on the side that the node's crossings come from;
-/// another crack, where the line from x to the node crosses it from that side.
-inline RIVEN_FN int field_of_surface(const SurfaceView& view, int node, int crack, Side side, Vec2 x, int cell) {
+/// v(s,i): the field of `node` for the surface `side` at crack point k, which is at x now; -1 if the node has no such
+/// field. `cell` is the cell of x by the shape function of the hash. The point's own crack is crossed where the node
+/// holds it and has crossings from this surface's side; another crack, where the line from x to the node crosses it
+/// from the side that the node holds. The field of a crack that the line crosses and the node does not hold is empty
+/// (there is no such field to find, though a particle may ignore a crack beyond the two held).
+inline RIVEN_FN int field_of_surface(const SurfaceView& view, int node, int k, Side side, Vec2 x, int cell) {
   const int f = view.node_index[node];
   if (f < 0)
     return 0;
   const NodeCracks& held = view.nodes[f];
-  int field = 0;
-  for (int m = 0; m < 2; ++m) {
-    if (held.crack[m] < 0)
-      continue;
-    Side from = side;
-    if (held.crack[m] != crack) {
-      CrossingSum sum;
-      const int c = view.cell_index[cell], other = held.crack[m];
-      for (int s = c < 0 ? 0 : view.cell_start[c]; s < (c < 0 ? 0 : view.cell_start[c + 1]); ++s) {
-        const int k = view.cell_segment[s];
-        if (view.crack[k] == other)
-          sum.add(riven::crossing(x, view.lattice.position(node), view.plane + k, k == view.start[other],
-                                  k + 2 == view.start[other + 1]));
-      }
-      from = sum.side();
+  const Vec2 n = view.lattice.position(node);
+  const int own = view.crack[k];
+  const bool holds_own = held.crack[0] == own || held.crack[1] == own;
+  const int c = view.cell_index[cell];
+  int field = holds_own && held.side[held.crack[1] == own] == side ? 1 << (held.crack[1] == own) : 0;
+  for (int s = c < 0 ? 0 : view.cell_start[c], end = c < 0 ? 0 : view.cell_start[c + 1]; s < end;) {
+    const int crack = view.crack[view.cell_segment[s]], first = view.start[crack], last = view.start[crack + 1] - 1;
+    const Vec2 from = crack == own ? view.plane[k] : x;
+    CrossingSum sum;
+    for (; s < end && view.crack[view.cell_segment[s]] == crack; ++s) {
+      const int a = view.cell_segment[s];
+      if (crack != own || !holds_own)
+        sum.add(crossing(from, n, view.plane + a, a == first, a + 1 == last));
     }
-    if (from == held.side[m])
-      field |= 1 << m;
+    if (crack == own) {
+      // the line starts on its own crack, which counts at k by the side of the surface
+      if (!holds_own && (sum.count % 2 != 0) != crosses_at(view.plane + k, k == first, k == last, side, n))
+        return -1;
+      continue;
+    }
+    if (sum.side() == Side::none)
+      continue;
+    if (held.crack[0] == crack || held.crack[1] == crack) {
+      const int m = held.crack[1] == crack;
+      if (held.side[m] == sum.side())
+        field |= 1 << m;
+    } else if (held.crack[1] < 0) {
+      return -1;
+    }
   }
   return field;
 }

@@ -76,7 +76,7 @@ struct Extrapolation {
     return m;
   }
 
-  Motion of_surface(Vec2 x, int crack, Side side) const {
+  Motion of_surface(Vec2 x, int point, Side side) const {
     const Lattice& l = grid.lattice;
     const Vec2 X = (x - l.origin) * (1 / l.h);
     const int i = Shape::cell(X.x), j = Shape::cell(X.y);
@@ -84,7 +84,9 @@ struct Extrapolation {
     if (i < 0 || j < 0 || i >= l.nx || j >= l.ny)
       return m;
     each_node(x, [&](int node, double weight) {
-      add(m, slot(node, field_of_surface(view, node, crack, side, x, j * l.nx + i)), weight);
+      const int field = field_of_surface(view, node, point, side, x, j * l.nx + i);
+      if (field >= 0)
+        add(m, slot(node, field), weight);
     });
     return renormalised(m);
   }
@@ -136,9 +138,9 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   const bool xpic = rules.update == SurfaceUpdate::xpic;
   std::vector<Moves> moves(static_cast<size_t>(cracks.points()));
   exec::parallel_tasks(space, "move cracks", cracks.points(), [&](long k) {
-    const int crack = cracks.crack[k];
-    const Motion up = from.of_surface(cracks.upper[k], crack, Side::above);
-    const Motion low = from.of_surface(cracks.lower[k], crack, Side::below);
+    const int point = static_cast<int>(k);
+    const Motion up = from.of_surface(cracks.upper[k], point, Side::above);
+    const Motion low = from.of_surface(cracks.lower[k], point, Side::below);
     const bool has_up = up.mass > 0, has_low = low.mass > 0;
     Vec2* const up_velocity = xpic ? &cracks.upper_velocity[k] : nullptr;
     Vec2* const low_velocity = xpic ? &cracks.lower_velocity[k] : nullptr;
