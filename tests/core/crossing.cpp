@@ -126,8 +126,8 @@ TEST(Crossing, AtASurfacePointDependsOnTheSideOfTheSurface) {
   }
   EXPECT_TRUE(at(0, Side::below, {-1, 0}));  // behind the tip
   EXPECT_FALSE(at(0, Side::above, {-1, 0}));
-  EXPECT_TRUE(at(2, Side::above, {.5, -1.5}));
-  EXPECT_FALSE(at(2, Side::below, {.5, -1.5}));
+  EXPECT_TRUE(at(2, Side::above, {.25, -1.25}));
+  EXPECT_FALSE(at(2, Side::below, {.25, -1.25}));
 }
 
 }  // namespace
