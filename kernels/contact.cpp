@@ -1,0 +1,308 @@
+#include "kernels/contact.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/laws/contact_node.hpp"
+#include "kernels/contact_meetings.hpp"
+
+namespace riven {
+
+ContactReport& ContactReport::operator+=(const ContactReport& o) {
+  kinetic += o.kinetic;
+  interface_work += o.interface_work;
+  touching += o.touching;
+  apart += o.apart;
+  early += o.early;
+  capped += o.capped;
+  penetration = std::max(penetration, o.penetration);
+  gap = std::max(gap, o.gap);
+  return *this;
+}
+
+namespace {
+
+/// Motion of slots as each stage keeps it.
+template <class Real, ContactStage stage>
+struct Motion {
+  static constexpr bool momentum = stage == ContactStage::before || stage == ContactStage::again;
+  static constexpr bool acceleration = stage == ContactStage::after;
+  static constexpr int stride = stage == ContactStage::before || stage == ContactStage::after ? 4 : 2;
+
+  const Real* mass;
+  Real* data;
+
+  explicit Motion(Grid<Real>& grid) : mass(grid.mass.data()) {
+    data = stride == 4 ? grid.q.data() : stage == ContactStage::again ? grid.again.data() : grid.high.data();
+  }
+  RIVEN_INLINE Vec2 momentum_of(long slot) const {
+    const Real* d = data + stride * slot;
+    return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
+  }
+  /// Velocity before the step's forces.
+  RIVEN_INLINE Vec2 first_velocity(long slot, double dt) const {
+    const Real* d = data + stride * slot;
+    return {d[0] - dt * d[2], d[1] - dt * d[3]};
+  }
+  RIVEN_INLINE void change(long slot, Vec2 impulse, Vec2 velocity, double dt) const {
+    Real* d = data + stride * slot;
+    if constexpr (momentum) {
+      d[0] = Real(d[0] + impulse.x);
+      d[1] = Real(d[1] + impulse.y);
+    } else {
+      if constexpr (acceleration) {
+        d[2] = Real(d[2] + (velocity.x - d[0]) / dt);
+        d[3] = Real(d[3] + (velocity.y - d[1]) / dt);
+      }
+      d[0] = Real(velocity.x);
+      d[1] = Real(velocity.y);
+    }
+  }
+};
+
+struct Detection {
+  ContactDetection by;
+  double v_sep, v_contact;
+  const ContactField* field;  ///< null where not summed
+  const ContactArea* area;
+  bool volumes;
+};
+
+/// The contacts of one node, from its slots to its slots.
+template <class Real, ContactStage stage>
+struct NodeContact {
+  const Motion<Real, stage>& motion;
+  const Detection& found;
+  const double dt;
+  const ContactField* field = nullptr;
+  const ContactArea* area = nullptr;
+  ContactNode node{};
+  long slot[ContactNode::fields] = {};
+  Meeting pair[ContactNode::most_pairs] = {};  ///< the meeting behind each of node.pair
+  double gap[ContactNode::most_pairs] = {};
+  double stick_gap[ContactNode::most_pairs] = {};
+  ContactReport report{};
+
+  RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice, const int* extra) {
+    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+      slot[f] = f == 0 ? n.node : long{lattice.nodes()} + extra[n.node] + f - 1;
+      node.mass[f] = motion.mass[slot[f]];
+      if (node.mass[f] > 0)
+        node.momentum[f] = motion.momentum_of(slot[f]);
+    }
+  }
+
+  RIVEN_INLINE void add(const Meeting& m, const ContactPair& p, double g) {
+    pair[node.pairs] = m;
+    gap[node.pairs] = g;
+    node.add(p);
+  }
+
+  /// The pair that already stands for the same crack between the same groups of fields, or -1.
+  RIVEN_INLINE int find_same(const Meeting& m) const {
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].k == m.k && node.together(pair[k].above, m.above) && node.together(pair[k].below, m.below))
+        return k;
+    return -1;
+  }
+
+  /// Fields that bonded cracks have merged may meet twice across another: they share one interface.
+  RIVEN_INLINE void add_interface(const Meeting& m) {
+    if (const int k = find_same(m); k >= 0) {
+      pair[k].share += m.share;
+      return;
+    }
+    ContactPair p;
+    p.above = m.above;
+    p.below = m.below;
+    p.normal = m.normal;
+    add(m, p, 0);
+  }
+
+  /// Faces that may touch and part; `held` ones do not part. Of two meetings that bonded fields make one, the first to
+  /// close counts.
+  RIVEN_INLINE void add_touching(const Meeting& m, bool held) {
+    const double g = found.by == ContactDetection::displacement ? gap_of(m, field) : 0;
+    if (m.law.law == ContactLaw::stick) {
+      if (held) {
+        node.bond(m.above, m.below);
+        ++report.touching;
+      } else if (g <= 0) {
+        stick_gap[node.stickings] = g;
+        node.add(StickingPair{m.above, m.below, m.normal});
+      } else {
+        ++report.apart;
+      }
+      return;
+    }
+    const ContactPair p = touching_pair(m.law, m.above, m.below, m.normal, g, dt, held);
+    if (const int k = find_same(m); k >= 0) {
+      if (g < gap[k]) {
+        gap[k] = g;
+        node.pair[k] = p;
+      }
+      return;
+    }
+    add(m, p, g);
+  }
+
+  RIVEN_INLINE void detect(const Meetings& meetings, double relative_volume) {
+    for (const Meeting& m : meetings)
+      if (m.law.law == ContactLaw::bonded) {
+        node.bond(m.above, m.below);
+        ++report.touching;
+      }
+    for (const Meeting& m : meetings) {
+      if (m.law.law == ContactLaw::ignored || node.together(m.above, m.below))
+        continue;
+      if (m.law.law == ContactLaw::interface)
+        add_interface(m);
+      else if (found.by == ContactDetection::volume && relative_volume < found.v_sep)
+        ++report.apart;
+      else
+        add_touching(m, found.by == ContactDetection::volume && relative_volume > found.v_contact);
+    }
+  }
+
+  /// Velocity of a group of fields before the step's forces.
+  RIVEN_INLINE Vec2 first_velocity(int f) const {
+    Vec2 p;
+    for (int g = 0; g < ContactNode::fields; ++g)
+      if (node.mass[g] > 0 && node.together(f, g))
+        p += node.mass[g] * motion.first_velocity(slot[g], dt);
+    return p * (1 / node.group_mass(f));
+  }
+
+  RIVEN_INLINE void respond(ContactPair& p, const Meeting& m) const {
+    const ContactArea& a = area[m.k];
+    const double factor = m.share * a.area * dt * dt / node.reduced_mass(m.above, m.below);
+    const double across = factor * m.law.normal_stiffness, along = factor * m.law.shear_stiffness;
+    if constexpr (stage == ContactStage::after) {
+      const Vec2 n = m.normal, t = turned(n), u = first_velocity(m.above) - first_velocity(m.below);
+      p.across = interface_response(across, dot(u, n), dot(a.opening, n), dt);
+      p.along = interface_response(along, dot(u, t), dot(a.opening, t), dt);
+    } else {
+      p.across = interface_hold(across);
+      p.along = interface_hold(along);
+    }
+  }
+
+  /// Work of one pair on its fields: its impulse times the mean of the velocities before and after.
+  RIVEN_INLINE double work(const ContactOutcome& out, int k) const {
+    const Vec2 n = pair[k].normal, impulse = out.lambda[k] * n + out.tau[k] * turned(n);
+    const auto mean = [&](int f) {
+      return 0.5 * (node.group_momentum(f) * (1 / node.group_mass(f)) + out.velocity[f]);
+    };
+    return dot(impulse, mean(pair[k].below) - mean(pair[k].above));
+  }
+
+  RIVEN_INLINE void tally(const ContactOutcome& out, double relative_volume) {
+    report.capped += !out.converged;
+    bool touched = false;
+    for (int k = 0; k < node.pairs; ++k) {
+      const bool push = out.lambda[k] != 0 || out.tau[k] != 0;
+      report.touching += push;
+      if (pair[k].law.law == ContactLaw::interface) {
+        report.interface_work += work(out, k);
+        continue;
+      }
+      report.apart += !push;
+      touched = touched || push;
+      if (push) {
+        report.penetration = std::max(report.penetration, -gap[k]);
+        report.gap = std::max(report.gap, gap[k]);
+      }
+    }
+    for (int i = 0; i < node.stickings; ++i) {
+      ++(out.stuck[i] ? report.touching : report.apart);
+      if (!out.stuck[i])
+        continue;
+      touched = true;
+      report.penetration = std::max(report.penetration, -stick_gap[i]);
+    }
+    report.early = touched && relative_volume < found.v_sep;
+  }
+
+  RIVEN_INLINE void run(const NodeCracks& n, long index, const Lattice& lattice, const int* extra,
+                        const ContactSettings* laws) {
+    load(n, lattice, extra);
+    const Meetings meetings = find_meetings(n, node.mass, laws);
+    if (meetings.count == 0)
+      return;
+    if (found.field)
+      field = found.field + ContactNode::fields * index;
+    if (found.area)
+      area = found.area + 2 * index;
+    const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
+    detect(meetings, volume);
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].law.law == ContactLaw::interface)
+        respond(node.pair[k], pair[k]);
+    const ContactOutcome out = solve(node);
+    tally(out, volume);
+    for (int f = 0; f < ContactNode::fields; ++f) {
+      if (!out.changed[f])
+        continue;
+      report.kinetic += 0.5 * dot(out.impulse[f], node.momentum[f] * (1 / node.mass[f]) + out.velocity[f]);
+      motion.change(slot[f], out.impulse[f], out.velocity[f], dt);
+    }
+  }
+};
+
+template <ContactStage stage, class Real>
+void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
+         const Detection& found, double dt, ContactReport& report) {
+  const Motion<Real, stage> motion(grid);
+  const NodeCracks* nodes = fields.nodes.data();
+  const int* extra = fields.extra.data();
+  const ContactSettings* laws = cracks.contact.data();
+  const Lattice lattice = grid.lattice;
+  report += exec::parallel_reduce<ContactReport>(space, label, fields.nodes.size(), [=](long i) {
+    NodeContact<Real, stage> here{motion, found, dt};
+    if (nodes[i].crack[0] >= 0)
+      here.run(nodes[i], i, lattice, extra, laws);
+    return here.report;
+  });
+}
+
+}  // namespace
+
+template <class Real>
+void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
+             const ContactRules& rules, ContactStage stage, double dt, const ContactSums& sums, ContactReport& report) {
+  const bool interfaces = std::any_of(cracks.contact.begin(), cracks.contact.end(),
+                                      [](const ContactSettings& c) { return c.law == ContactLaw::interface; });
+  const bool by_volume = rules.detection == ContactDetection::volume;
+  const bool by_field = by_volume || rules.detection == ContactDetection::displacement;
+  if ((by_field && sums.field.size() != ContactNode::fields * fields.nodes.size()) || (by_volume && !sums.volumes) ||
+      (interfaces && sums.area.size() != 2 * fields.nodes.size()))
+    fail({Exit::internal,
+          "contact lacks the sums that its detection or its laws need",
+          "contact",
+          {},
+          {},
+          "call contact_sums with the same cracks and rules before"});
+  const Detection found{rules.detection,
+                        rules.v_sep,
+                        rules.v_contact,
+                        sums.field.empty() ? nullptr : sums.field.data(),
+                        sums.area.empty() ? nullptr : sums.area.data(),
+                        sums.volumes};
+  switch (stage) {
+    case ContactStage::before:
+      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);
+    case ContactStage::after:
+      return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt, report);
+    case ContactStage::again:
+      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, report);
+    case ContactStage::higher:
+      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, report);
+  }
+}
+
+template void contact(const exec::Space&, Grid<float>&, const CrackFields&, const Cracks&, const ContactRules&,
+                      ContactStage, double, const ContactSums&, ContactReport&);
+template void contact(const exec::Space&, Grid<double>&, const CrackFields&, const Cracks&, const ContactRules&,
+                      ContactStage, double, const ContactSums&, ContactReport&);
+
+}  // namespace riven

@@ -1,0 +1,63 @@
+// Contact between the fields of every node that a crack passes (laws: core/laws/contact.hpp, solution of a node:
+// core/laws/contact_node.hpp). With A and B the node's cracks, field = 1 (crosses A) + 2 (crosses B):
+//   pairs (0,1) and (2,3) meet across A with A's normal, (0,2) and (1,3) across B with B's (seed of the pairs: section
+//   "Crack Surface Contact" of the multiple-crack CRAMP paper); fields that differ on both cracks with none between
+//   them, (0,3) or (1,2), meet with the sum of both normals, each turned to point from the one to the other, and the
+//   stricter of the two laws.
+//
+// Detection, for laws whose faces may part (stick, frictionless, Coulomb):
+//   volume        apart if V_rel < V_sep, held together if V_rel > V_contact, by velocity between (J.A. Nairn, CMES 4
+//                 (2003), eqs. 8-12)
+//   velocity      in contact when the fields approach each other along n (eq. 12)
+//   displacement  in contact when they approach so fast that the gap closes in this step; the impulse leaves just the
+//                 velocity that closes it (J.A. Nairn, CMES 92 (2013) 271-299; J.A. Nairn, S.G. Bardenhagen, G.D.
+//                 Smith, Comp. Part. Mech. 5 (2018) 285-296). The gap compares current and first mean positions,
+//                 delta_n = n.(x_below - x_above) - n0.(X_below - X_above),
+//                 0 for every rigid motion, the jump of displacement for small rotations, negative in compression.
+// Stopping faces at a distance instead would let them creep together by one stop after another, each a loss of energy;
+// ignoring the gap until it is negative would leave them a whole step's approach inside each other.
+//
+// Stages: before the forces and after a second extrapolation momenta change; after the update velocities change, and
+// the accelerations by dv/dt, so that bonded fields move their particles as one field would (the CRAMP paper's section
+// on contact). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the stage
+// `after`, where v - a dt is the velocity before the forces and a all other forces; adding F = impulse/dt to the forces
+// would give the same v and a. In the other stages an interface only keeps together what it is too stiff to let go.
+#pragma once
+#include "core/exec/parallel.hpp"
+#include "core/scene/scene.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/grid.hpp"
+#include "kernels/contact_sums.hpp"
+
+namespace riven {
+
+enum class ContactStage {
+  before,  ///< Grid::q holds [px py . .]: p changes
+  after,   ///< Grid::q holds [vx vy ax ay]: v and a change
+  again,   ///< Grid::again holds [px py]
+  higher   ///< Grid::high holds [vx vy]
+};
+
+/// What contact did, summed over nodes in a fixed order.
+struct ContactReport {
+  double kinetic = 0;         ///< J, change of the fields' kinetic energy (negative: taken by contact)
+  double interface_work = 0;  ///< J, part of it that interface tractions did (stored or given back)
+  long touching = 0;          ///< pairs of fields that pushed or held each other
+  long apart = 0;             ///< pairs whose faces may part and did not touch
+  long early = 0;             ///< nodes that touched although V_rel < V_sep (where volumes were summed)
+  long capped = 0;            ///< nodes whose pairs were not solved within the limit of sweeps
+  double penetration = 0;     ///< m, largest -delta_n of a touching pair (displacement)
+  double gap = 0;             ///< m, largest delta_n at which a pair pushed (displacement)
+
+  ContactReport& operator+=(const ContactReport& o);
+};
+
+/// Applies contact to all flagged nodes; adds to the report. `sums` as the detection and the laws need them: field for
+/// displacement and volume, area for interfaces. Bonded and ignored cracks need none. Throws Error (internal) if sums
+/// are missing.
+template <class Real>
+void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
+             const ContactRules& rules, ContactStage stage, double dt, const ContactSums& sums, ContactReport& report);
+
+}  // namespace riven

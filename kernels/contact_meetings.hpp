@@ -1,0 +1,101 @@
+// Which fields of a node meet across which crack, and how far apart they are.
+#pragma once
+#include <algorithm>
+
+#include "core/laws/contact_node.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/grid.hpp"
+#include "kernels/contact_sums.hpp"
+
+namespace riven {
+
+/// Two fields that meet across one crack, or diagonally across both.
+struct Meeting {
+  int above, below;
+  int k;                 ///< the crack at the node (0 or 1) whose law holds
+  Vec2 normal, normal0;  ///< now and at the first position, from `above` to `below`
+  ContactSettings law;
+  double share;  ///< of the node's part of crack k that lies between these two fields
+};
+
+struct Meetings {
+  Meeting list[ContactNode::most_pairs];
+  int count = 0;
+  const Meeting* begin() const { return list; }
+  const Meeting* end() const { return list + count; }
+};
+
+/// Fields that differ on both cracks and have none between them.
+RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const ContactSettings* laws, int f, int g) {
+  const ContactSettings &a = laws[n.crack[0]], &b = laws[n.crack[1]];
+  const int k = stricter(b, a) ? 1 : 0;
+  Vec2 normal[2], normal0[2];
+  for (int c = 0; c < 2; ++c) {
+    const bool crosses = f & (1 << c), crossing_above = n.side[c] == Side::above;
+    const double sign = crosses == crossing_above ? 1 : -1;  // +1: f lies above crack c and g below
+    normal[c] = sign * n.normal[c];
+    normal0[c] = sign * n.normal0[c];
+  }
+  Vec2 sum = normal[0] + normal[1], sum0 = normal0[0] + normal0[1];
+  if (norm(sum) < 1e-6 || norm(sum0) < 1e-6) {  // both cracks are parallel and f and g lie outside of them
+    sum = normal[k];
+    sum0 = normal0[k];
+  }
+  return {f, g, k, sum * (1 / norm(sum)), sum0 * (1 / norm(sum0)), k == 1 ? b : a, 1};
+}
+
+/// All meetings of a node's fields; `mass` is 0 where a field is absent.
+RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[ContactNode::fields],
+                                    const ContactSettings* laws) {
+  Meetings m;
+  const auto present = [&](int f) { return mass[f] > 0; };
+  for (int k = 0; k < 2; ++k) {
+    if (n.crack[k] < 0)
+      continue;
+    const int first = m.count;
+    double total = 0;
+    for (int f : {0, k == 0 ? 2 : 1}) {
+      const int g = f + (1 << k);
+      if (!present(f) || !present(g))
+        continue;
+      const bool crossing_above = n.side[k] == Side::above;
+      const double both = mass[f] + mass[g];
+      total += both;
+      m.list[m.count++] = {crossing_above ? g : f, crossing_above ? f : g, k,   n.normal[k],
+                           n.normal0[k],           laws[n.crack[k]],       both};
+    }
+    for (int i = first; i < m.count; ++i)
+      m.list[i].share /= total;
+  }
+  if (n.crack[0] < 0 || n.crack[1] < 0)
+    return m;
+  if (present(0) && present(3) && !present(1) && !present(2))
+    m.list[m.count++] = diagonal_meeting(n, laws, 0, 3);
+  if (present(1) && present(2) && !present(0) && !present(3))
+    m.list[m.count++] = diagonal_meeting(n, laws, 1, 2);
+  return m;
+}
+
+/// Opening of two faces along the normal, m; `field` are the node's four sums.
+RIVEN_INLINE double gap_of(const Meeting& m, const ContactField* field) {
+  const ContactField &a = field[m.above], &b = field[m.below];
+  if (!(a.mass > 0) || !(b.mass > 0))
+    return 0;
+  return dot(m.normal, b.mean_position() - a.mean_position()) -
+         dot(m.normal0, b.mean_first_position() - a.mean_first_position());
+}
+
+/// Area in the plane of a node's particles over the area that its cells have inside the walls.
+RIVEN_INLINE double relative_volume(const Lattice& l, int node, const ContactField* field) {
+  const int i = node % l.nx, j = node / l.nx;
+  double cells = l.h * l.h, sum = 0;
+  if (i == l.wall_lower[0] || i == l.wall_upper[0])
+    cells /= 2;
+  if (j == l.wall_lower[1] || j == l.wall_upper[1])
+    cells /= 2;
+  for (int f = 0; f < ContactNode::fields; ++f)
+    sum += field[f].area;
+  return sum / cells;
+}
+
+}  // namespace riven

@@ -1,0 +1,173 @@
+#include "kernels/contact_sums.hpp"
+
+#include "core/error.hpp"
+#include "core/math/shape.hpp"
+#include "kernels/block.hpp"
+#include "kernels/dispatch.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Area of a particle over its first area.
+template <class Real>
+RIVEN_INLINE double area_ratio(const Real* const F[4], const Real* J, long i) {
+  if (J)
+    return J[i];
+  return double(F[0][i]) * F[3][i] - double(F[1][i]) * F[2][i];
+}
+
+/// The flagged nodes among the neighbours of the particles in one cell, which are remembered from particle to
+/// particle: particles are sorted by cell.
+template <class Shape>
+struct FlaggedNeighbours {
+  int base_x = -1, base_y = -1;
+  int count = 0;
+  int neighbour[neighbours<Shape, 2>];
+  int index[neighbours<Shape, 2>];
+
+  RIVEN_INLINE void find(int x, int y, int nx, const int* node_index, const NodeCracks* nodes) {
+    if (x == base_x && y == base_y)
+      return;
+    base_x = x;
+    base_y = y;
+    count = 0;
+    for (int k = 0; k < neighbours<Shape, 2>; ++k) {
+      const int i = node_index[(y + k / Shape::width) * nx + x + k % Shape::width];
+      if (i < 0 || nodes[i].crack[0] < 0)
+        continue;
+      neighbour[count] = k;
+      index[count++] = i;
+    }
+  }
+};
+
+template <class Shape, class Real>
+void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, const Particles<Real, 2>& particles,
+                   const exec::Array<DomainSetting<Real, 2>>& domains, const exec::Array<double>& specific_area,
+                   const Lattice& lattice, const CrackFields& fields, ContactField* out) {
+  const exec::Stopwatch watch(space.timers(), "contact sums");
+  const Tiles& tiles = particles.tiles;
+  const Real* const F[4] = {particles.F[0].data(), particles.F[1].data(), particles.F[2].data(), particles.F[3].data()};
+  const bool area = choice.volume, position = choice.position;
+  const Real *x = particles.x[0].data(), *y = particles.x[1].data(), *mass = particles.mass.data();
+  const Real *X = particles.x0[0].data(), *Y = particles.x0[1].data();
+  const Real* J = particles.J.empty() ? nullptr : particles.J.data();
+  const Real origin_x = Real(lattice.origin.x), origin_y = Real(lattice.origin.y), inv_h = Real(1 / lattice.h);
+  const BodyLookup<DomainSetting<Real, 2>> domain{domains.data(), particles.body.data(), domains.size() == 1};
+  const std::uint8_t* body = particles.body.data();
+  const double* specific = specific_area.data();
+  const std::uint32_t* word = fields.fields.data();
+  const int *node_index = fields.node_index.data(), *start = tiles.start.data(), *marked = fields.tile_marked.data();
+  const NodeCracks* nodes = fields.nodes.data();
+
+  const auto tile_body = [=](int tile) {
+    FlaggedNeighbours<Shape> near;
+    for (int p = start[tile]; p < start[tile + 1]; ++p) {
+      const DomainSetting<Real, 2>& d = domain.of(p);
+      const auto a = Shape::axis((x[p] - origin_x) * inv_h, d.axis[0]);
+      const auto b = Shape::axis((y[p] - origin_y) * inv_h, d.axis[1]);
+      near.find(a.base, b.base, lattice.nx, node_index, nodes);
+      if (near.count == 0)
+        continue;
+      const double m = mass[p];
+      const double A = area ? m * specific[body[p]] * area_ratio(F, J, p) : 0;
+      for (int c = 0; c < near.count; ++c) {
+        const int k = near.neighbour[c], i = near.index[c];
+        const double S = double(a.s[k % Shape::width]) * double(b.s[k / Shape::width]), mS = m * S;
+        ContactField& f = out[4L * i + field_of(word[p], k)];
+        f.mass += mS;
+        f.area += A * S;
+        if (position) {
+          const Vec2 node = lattice.position(nodes[i].node);
+          f.x += mS * (Vec2{double(x[p]), double(y[p])} - node);
+          f.X += mS * (Vec2{double(X[p]), double(Y[p])} - node);
+        }
+      }
+    }
+  };
+  for (int colour = 0; colour < 4; ++colour) {
+    const int* some = tiles.by_colour.data() + tiles.colour_start[colour];
+    exec::launch(space, tiles.colour_start[colour + 1] - tiles.colour_start[colour], [=](long t) {
+      if (marked[some[t]])
+        tile_body(some[t]);
+    });
+  }
+}
+
+/// Crack by crack: no two cracks share an entry, and the segments of one are taken in order.
+template <class Shape>
+void sum_segments(const exec::Space& space, const DomainSetting<double, 2>& domain, const Lattice& lattice,
+                  const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
+  const NodeCracks* nodes = fields.nodes.data();
+  const int *node_index = fields.node_index.data(), *start = cracks.start.data();
+  const Vec2 *plane = cracks.plane.data(), *upper = cracks.upper.data(), *lower = cracks.lower.data();
+  const ContactSettings* law = cracks.contact.data();
+  const double inv_h = 1 / lattice.h;
+  exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
+    if (law[c].law != ContactLaw::interface)
+      return;
+    for (int p = start[c]; p + 1 < start[c + 1]; ++p) {
+      const Vec2 at = (0.5 * inv_h) * (plane[p] + plane[p + 1] - 2 * lattice.origin);
+      const auto a = Shape::axis(at.x, domain.axis[0]);
+      const auto b = Shape::axis(at.y, domain.axis[1]);
+      const double area = thickness * norm(plane[p + 1] - plane[p]);
+      const Vec2 opening = 0.5 * (lower[p] + lower[p + 1] - upper[p] - upper[p + 1]);
+      for (int k = 0; k < neighbours<Shape, 2>; ++k) {
+        const int x = a.base + k % Shape::width, y = b.base + k / Shape::width;
+        if (x < 0 || y < 0 || x >= lattice.nx || y >= lattice.ny)
+          continue;
+        const int i = node_index[y * lattice.nx + x];
+        if (i < 0 || (nodes[i].crack[0] != c && nodes[i].crack[1] != c))
+          continue;
+        ContactArea& to = out[2L * i + (nodes[i].crack[0] == c ? 0 : 1)];
+        const double part = area * a.s[k % Shape::width] * b.s[k / Shape::width];
+        to.area += part;
+        to.opening += part * opening;
+      }
+    }
+  });
+  exec::parallel_for(space, "contact areas", 2 * fields.nodes.size(), [=](long i) {
+    if (out[i].area > 0)
+      out[i].opening *= 1 / out[i].area;
+  });
+}
+
+}  // namespace
+
+template <class Real>
+void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSumsChoice& choice,
+                  const Particles<Real, 2>& particles, const exec::Array<DomainSetting<Real, 2>>& domains,
+                  const exec::Array<double>& specific_area, const Lattice& lattice, const CrackFields& fields,
+                  const Cracks& cracks, double thickness, ContactSums& sums) {
+  if ((choice.volume && particles.J.empty() && particles.F[0].empty()) ||
+      (choice.position && particles.x0[0].empty()) || (choice.volume && specific_area.size() != domains.size()))
+    fail({Exit::internal, "particles lack the arrays that the detection of contact needs", "contact sums", {}, {}, {}});
+  sums.volumes = choice.volume;
+  sums.field.resize(choice.volume || choice.position ? 4 * fields.nodes.size() : 0);
+  sums.area.resize(choice.area ? 2 * fields.nodes.size() : 0);
+  sums.field.zero();
+  sums.area.zero();
+  with_shape(shape, [&](auto type) {
+    using Shape = typename decltype(type)::type;
+    if (!sums.field.empty())
+      sum_particles<Shape>(space, choice, particles, domains, specific_area, lattice, fields, sums.field.data());
+    if (sums.area.empty())
+      return;
+    DomainSetting<double, 2> domain;  // of a crack point: that of the first body's particles
+    for (int d = 0; d < 2; ++d) {
+      const AxisSetting<Real>& a = domains[0].axis[d];
+      domain.axis[d] = {double(a.half), double(a.inv_4half), a.wall_lower, a.wall_upper};
+    }
+    sum_segments<Shape>(space, domain, lattice, fields, cracks, thickness, sums.area.data());
+  });
+}
+
+template void contact_sums(const exec::Space&, ShapeFunction, const ContactSumsChoice&, const Particles<float, 2>&,
+                           const exec::Array<DomainSetting<float, 2>>&, const exec::Array<double>&, const Lattice&,
+                           const CrackFields&, const Cracks&, double, ContactSums&);
+template void contact_sums(const exec::Space&, ShapeFunction, const ContactSumsChoice&, const Particles<double, 2>&,
+                           const exec::Array<DomainSetting<double, 2>>&, const exec::Array<double>&, const Lattice&,
+                           const CrackFields&, const Cracks&, double, ContactSums&);
+
+}  // namespace riven
