@@ -3,6 +3,8 @@
 #   SCENE    a file, or the name of a shipped scene (`build/release/riven cases` lists them); ten_cracks by default
 #   options  for example  -o DIR  --set solver.cfl=0.3  --threads 4  --exec stdpar
 # Results go to results/NAME unless -o says otherwise. Installs missing Debian packages first.
+# Pictures are drawn as the scene says in lines such as  `# draw: --field sigma_yy --magnify 20`  (the options of
+# io/python/riven_picture.py), or else of the von Mises stress.
 start=$PWD
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -18,7 +20,7 @@ case "${1:-}" in
     ;;
 esac
 [ -f "$start/$scene" ] && scene=$start/$scene
-out=results/$(basename "$scene" .toml)
+out=$PWD/results/$(basename "$scene" .toml)
 options=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -31,13 +33,19 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-[[ $out == /* || $out == results/* ]] || out=$start/$out
+[[ $out == /* ]] || out=$start/$out
 
 install_packages
 say "Building"
 build_targets riven
 say "Running $scene"
 "$build/riven" run "$scene" -o "$out" "${options[@]}"
+
 say "Drawing"
-"$python" io/python/riven_picture.py "$out"
+file=$scene
+[ -f "$file" ] || file=cases/scenes/$scene.toml
+pictures=$(sed -n 's/^# draw: *//p' "$file")
+while read -r -a picture; do
+  "$python" io/python/riven_picture.py "$out" "${picture[@]}"
+done <<<"$pictures"
 say "Results are in $out"

@@ -1,6 +1,7 @@
 // Relaxed atomic additions for scatters and counters.
 #pragma once
 #include <atomic>
+#include <type_traits>
 
 #include "core/exec/config.hpp"
 
@@ -10,7 +11,12 @@ namespace riven::exec {
 template <class T>
 RIVEN_INLINE T atomic_add(T& target, T value) {
 #if defined(__CUDA_ARCH__)
-  return atomicAdd(&target, value);
+  if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {  // CUDA adds eight-byte integers unsigned: same bits
+    using Word = unsigned long long;
+    return static_cast<T>(atomicAdd(reinterpret_cast<Word*>(&target), static_cast<Word>(value)));
+  } else {
+    return atomicAdd(&target, value);
+  }
 #else
   return std::atomic_ref<T>(target).fetch_add(value, std::memory_order_relaxed);
 #endif

@@ -426,7 +426,7 @@ RIVEN_INLINE ContactOutcome solve(ContactNode node) {
     if (sweep.pairs > 0) {
       const int count = sweep.sweep(ContactNode::most_sweeps);
       out.converged = count <= ContactNode::most_sweeps;
-      out.sweeps += std::min(count, ContactNode::most_sweeps);
+      out.sweeps += std::min(count, int{ContactNode::most_sweeps});  // a copy: std::min takes an address
     }
     again = sweep.stick(node, out);
     if (!again)

@@ -1,5 +1,5 @@
-// Instantiates for the device what a particle goes through in a step: its weights, the sums to the nodes and back,
-// with and without crack fields, and its law.
+// Instantiates for the device what a particle goes through in a step (its weights, the sums to the nodes and back,
+// with and without crack fields, and its law) and what a node near a crack does (crossings, contact).
 #include "every_header.hpp"
 
 namespace {
@@ -32,6 +32,30 @@ __global__ void step(long particles, Positions<Real> positions, const Law* laws,
                                 law.stress_zz(state[p]));
 }
 
+/// One node near two cracks a thread: which cracks the path from a particle crosses, and contact of the four fields.
+__global__ void touch(long nodes, const Vec2* particle, const Vec2* place, const Vec2* crack, int points,
+                      const ContactSettings* settings, Vec2* momentum) {
+  const long n = blockIdx.x * static_cast<long>(blockDim.x) + threadIdx.x;
+  if (n >= nodes)
+    return;
+  CrossingSum crossings;
+  for (int s = 0; s + 1 < points; ++s)
+    crossings.add(crossing(particle[n], place[n], crack + s, s == 0, s + 2 == points));
+  if (crossings.side() == Side::none)
+    return;
+  ContactNode node;
+  for (int f = 0; f < ContactNode::fields; ++f) {
+    node.mass[f] = 1;
+    node.momentum[f] = momentum[ContactNode::fields * n + f];
+  }
+  const Vec2 normal = turned(crack[1] - crack[0]);
+  node.add(touching_pair(settings[0], 0, 1, normal, 0, 1, false));
+  node.add(touching_pair(settings[1], 2, 3, normal, 0, 1, false));
+  const ContactOutcome out = solve(node);
+  for (int f = 0; f < ContactNode::fields; ++f)
+    momentum[ContactNode::fields * n + f] += out.impulse[f];
+}
+
 template <class Real, class Shape>
 void every_law() {
   (void)&step<Real, Shape, LinearElastic<Real>>;
@@ -47,7 +71,8 @@ void every_shape() {
 
 }  // namespace
 
-void every_precision() {
+void every_body() {
+  (void)&touch;
   every_shape<double>();
   every_shape<float>();
 }
