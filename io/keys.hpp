@@ -1,7 +1,6 @@
 // Walking through the tables of a scene: every key is known, typed, in range and remembered with its place.
 #pragma once
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <initializer_list>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "core/scene/names.hpp"
 #include "core/scene/scene.hpp"
 #include "io/suggest.hpp"
+#include "io/toml.hpp"
 #include "io/units.hpp"
 
 namespace riven {

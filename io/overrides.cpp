@@ -26,9 +26,9 @@ std::vector<std::string> split_path(std::string_view path) {
 /// A document with the one key "value", its source being the argument; nothing when the text is not TOML.
 bool parse_value(const std::string& text, const std::string& source, toml::table& into) {
   try {
-    into = toml::parse("value = " + text, source);
+    into = parse_toml("value = " + text, source);
     return into.size() == 1 && into.contains("value");
-  } catch (const toml::parse_error&) {
+  } catch (const Error&) {
     return false;
   }
 }

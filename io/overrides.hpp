@@ -1,9 +1,10 @@
 // Changes to a scene from the command line: --set key=value.
 #pragma once
-#include <toml++/toml.h>
 
 #include <string>
 #include <vector>
+
+#include "io/toml.hpp"
 
 namespace riven {
 

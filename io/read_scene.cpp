@@ -11,19 +11,6 @@
 
 namespace riven {
 
-namespace {
-
-toml::table parse_toml(std::string_view text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& e) {
-    fail({Exit::bad_input, "this is not TOML: " + shown(e.description()),
-          fmt::format("{}:{}", name, e.source().begin.line), "", "", "see https://toml.io; texts stand in quotes"});
-  }
-}
-
-}  // namespace
-
 Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides) {
   toml::table document = parse_toml(text, name);
   apply_overrides(document, overrides);
