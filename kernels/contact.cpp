@@ -270,24 +270,19 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
 template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactSums& sums, ContactReport& report) {
-  const bool interfaces = std::any_of(cracks.contact.begin(), cracks.contact.end(),
-                                      [](const ContactSettings& c) { return c.law == ContactLaw::interface; });
-  const bool by_volume = rules.detection == ContactDetection::volume;
-  const bool by_field = by_volume || rules.detection == ContactDetection::displacement;
-  if ((by_field && sums.field.size() != ContactNode::fields * fields.nodes.size()) || (by_volume && !sums.volumes) ||
+  const auto any = [&](auto&& which) { return std::any_of(cracks.contact.begin(), cracks.contact.end(), which); };
+  const bool interfaces = any([](const ContactSettings& c) { return c.law == ContactLaw::interface; });
+  const bool parting = any([](const ContactSettings& c) {
+    return c.law == ContactLaw::stick || c.law == ContactLaw::frictionless || c.law == ContactLaw::coulomb;
+  });
+  const bool by_volume = parting && rules.detection == ContactDetection::volume;
+  const bool by_field = by_volume || (parting && rules.detection == ContactDetection::displacement);
+  const bool summed = sums.field.size() == ContactNode::fields * fields.nodes.size();
+  if ((by_field && !summed) || (by_volume && !sums.volumes) ||
       (interfaces && sums.area.size() != 2 * fields.nodes.size()))
-    fail({Exit::internal,
-          "contact lacks the sums that its detection or its laws need",
-          "contact",
-          {},
-          {},
-          "call contact_sums with the same cracks and rules before"});
-  const Detection found{rules.detection,
-                        rules.v_sep,
-                        rules.v_contact,
-                        sums.field.empty() ? nullptr : sums.field.data(),
-                        sums.area.empty() ? nullptr : sums.area.data(),
-                        sums.volumes};
+    fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
+  const Detection found{rules.detection,  rules.v_sep,           rules.v_contact, summed ? sums.field.data() : nullptr,
+                        sums.area.data(), sums.volumes && summed};
   switch (stage) {
     case ContactStage::before:
       return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);

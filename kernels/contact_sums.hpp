@@ -6,8 +6,8 @@
 // displacements; the pair of positions stays exact when the body turns), and per crack the length times thickness and
 // the opening that belong to the node,
 //   A_i = sum_s t L_s S_i(x_s),    A_i opening_i = sum_s t L_s S_i(x_s) (lower_s - upper_s)
-// over the crack's segments s with midpoints x_s: the areas of all nodes add up to the crack's, and the opening is that
-// of the tracked surfaces, which no strain of the bulk enters.
+// over the crack's segments s with midpoints x_s. The areas add up to the crack's except at a tip, where nodes ahead
+// see no crossing; the opening is that of the tracked surfaces, which no strain of the bulk enters.
 //
 // Only nodes that a crack passes, and particles in marked tiles, take part. Tiles go colour by colour, each node in
 // the order of its particles: the same bits on any number of threads.
