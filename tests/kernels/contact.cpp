@@ -1,0 +1,491 @@
+// The contact kernels on small scenes: sums against brute force, gaps of bodies that turn and part, every stage and
+// detection, and the same bits in every execution space.
+#include "kernels/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "core/error.hpp"
+#include "core/scene/names.hpp"
+#include "kernels/contact_meetings.hpp"
+#include "tests/kernels/crack_scene.hpp"
+
+namespace riven {
+namespace {
+
+using namespace crack_scene;
+using Line = std::vector<Vec2>;
+
+constexpr double dt = 1e-2;
+
+struct Setting {
+  Lattice lattice = unit_cells(24, 24);
+  Cracks cracks;
+  CrackFields fields;
+  Particles<double, 2> particles;
+  exec::Array<DomainSetting<double, 2>> domains;
+  exec::Array<double> specific_area;
+  Grid<double> grid;
+  ContactSums sums;
+};
+
+/// Where a particle of first position X is now.
+using Map = std::function<Vec2(Vec2)>;
+
+/// A body over [4, 20]^2 of a grid of unit cells, four particles of mass 0.5 and first area 0.25 in each, with cracks,
+/// particles and crack points moved by `map` from where they are first.
+template <class Shape = UGimp>
+Setting make_setting(const std::vector<Line>& lines, const Map& map, const Map& map_crack, ContactLaw law) {
+  Setting s;
+  s.cracks = cracks_of(lines, 0.5);
+  for (int p = 0; p < s.cracks.points(); ++p)
+    s.cracks.plane[p] = s.cracks.upper[p] = s.cracks.lower[p] = map_crack(s.cracks.plane0[p]);
+  for (ContactSettings& c : s.cracks.contact)
+    c.law = law;
+  std::vector<Vec2> X, x;
+  for (int j = 0; j < 32; ++j)
+    for (int i = 0; i < 32; ++i) {
+      X.push_back({4.25 + 0.5 * i, 4.25 + 0.5 * j});
+      x.push_back(map(X.back()));
+    }
+  Particles<double, 2>& p = s.particles;
+  p = sorted_particles<Shape>(s.lattice, x, in_order(x.size()));
+  p.mass.resize(p.count());
+  p.J.resize(p.count());
+  for (auto& a : p.x0)
+    a.resize(p.count());
+  for (int i = 0; i < p.count(); ++i) {
+    p.mass[i] = 0.5;
+    p.J[i] = 1;
+    p.x0[0][i] = X[static_cast<size_t>(p.id[i])].x;
+    p.x0[1][i] = X[static_cast<size_t>(p.id[i])].y;
+  }
+  for (int colour = 0; colour < 4; ++colour) {
+    for (int t = 0; t < s.lattice.tiles_x() * s.lattice.tiles_y(); ++t)
+      if (t % s.lattice.tiles_x() % 2 + 2 * (t / s.lattice.tiles_x() % 2) == colour &&
+          p.tiles.start[t] < p.tiles.start[t + 1])
+        p.tiles.by_colour.push_back(t);
+    p.tiles.colour_start[colour + 1] = static_cast<int>(p.tiles.by_colour.size());
+  }
+  s.domains.resize(1);
+  s.domains[0] = quarter_cells(s.lattice);
+  s.specific_area.resize(1);
+  s.specific_area[0] = 0.5;
+  const exec::Space serial;
+  hash_cracks<Shape>(serial, s.lattice, s.cracks, s.fields);
+  determine_fields<Shape>(serial, p, s.domains.data(), s.lattice, s.cracks, s.fields);
+  s.grid.lattice = s.lattice;
+  s.grid.mass.resize(s.lattice.nodes() + s.fields.extra_slots);
+  return s;
+}
+
+Vec2 stay(Vec2 X) {
+  return X;
+}
+
+void sum(Setting& s, const exec::Space& space, ShapeFunction shape = ShapeFunction::ugimp, double thickness = 2) {
+  contact_sums(space, shape, {true, true, true}, s.particles, s.domains, s.specific_area, s.lattice, s.fields, s.cracks,
+               thickness, s.sums);
+}
+
+/// Masses of all slots as the sums have them (flagged nodes; others need none here).
+void set_masses(Setting& s) {
+  for (long i = 0; i < s.fields.nodes.size(); ++i) {
+    const int n = s.fields.nodes[i].node;
+    const int count = s.fields.nodes[i].crack[1] < 0 ? 2 : 4;
+    for (int f = 0; f < count && s.fields.nodes[i].crack[0] >= 0; ++f)
+      s.grid.mass[f == 0 ? n : s.lattice.nodes() + s.fields.extra[n] + f - 1] = s.sums.field[4 * i + f].mass;
+  }
+}
+
+const Line level{{1, 12.3}, {23, 12.3}};
+const Line upright{{11.8, 1}, {11.8, 23}};
+const Line slanting{{2.1, 10.2}, {9.7, 11.6}, {22.3, 14.9}};
+
+template <class Shape>
+void check_sums(ShapeFunction shape) {
+  Setting s = make_setting<Shape>({slanting, upright}, stay, stay, ContactLaw::frictionless);
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> any(-0.3, 0.3);
+  for (int i = 0; i < s.particles.count(); ++i)
+    s.particles.J[i] = 1 + any(rng);
+  sum(s, exec::Space(), shape);
+  std::vector<ContactField> expected(static_cast<size_t>(s.sums.field.size()));
+  const Particles<double, 2>& p = s.particles;
+  for (int i = 0; i < p.count(); ++i) {
+    const auto a = Shape::axis(p.x[0][i] - s.lattice.origin.x, s.domains[0].axis[0]);
+    const auto b = Shape::axis(p.x[1][i] - s.lattice.origin.y, s.domains[0].axis[1]);
+    for (int k = 0; k < neighbours<Shape, 2>; ++k) {
+      const int n = (b.base + k / Shape::width) * s.lattice.nx + a.base + k % Shape::width;
+      const int index = s.fields.node_index[n];
+      if (index < 0 || s.fields.nodes[index].crack[0] < 0)
+        continue;
+      ContactField& f = expected[static_cast<size_t>(4 * index + ((s.fields.fields[i] >> (2 * k)) & 3u))];
+      const double S = a.s[k % Shape::width] * b.s[k / Shape::width];
+      f.mass += 0.5 * S;
+      f.area += 0.25 * p.J[i] * S;
+      f.x += 0.5 * S * (Vec2{p.x[0][i], p.x[1][i]} - s.lattice.position(n));
+    }
+  }
+  double mass = 0;
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const ContactField &e = expected[i], &f = s.sums.field[static_cast<long>(i)];
+    EXPECT_NEAR(f.mass, e.mass, 1e-14);
+    EXPECT_NEAR(f.area, e.area, 1e-14);
+    EXPECT_NEAR(norm(f.x - e.x), 0, 1e-14);
+    EXPECT_NEAR(norm(f.X - f.x), 0, 1e-14);  // nothing has moved
+    mass += f.mass;
+  }
+  EXPECT_GT(mass, 10);
+}
+
+TEST(ContactSums, EqualBruteForce) {
+  check_sums<Linear>(ShapeFunction::linear);
+  check_sums<UGimp>(ShapeFunction::ugimp);
+  check_sums<BSpline>(ShapeFunction::bspline);
+}
+
+TEST(ContactSums, AreasOfNodesAddUpToTheCracksAndCarryItsOpening) {
+  // an interior stretch of the crack: nodes well inside of the body see the whole of it
+  Setting s = make_setting({level}, stay, stay, ContactLaw::interface);
+  const Vec2 opening{0.01, -0.03};
+  for (int p = 0; p < s.cracks.points(); ++p)
+    s.cracks.lower[p] += opening;
+  sum(s, exec::Space());
+  for (int i = 8; i <= 16; ++i) {
+    double column = 0;  // a column of nodes owns the crack over one cell
+    for (long k = 0; k < s.fields.nodes.size(); ++k)
+      if (s.lattice.position(s.fields.nodes[k].node).x == i) {
+        const ContactArea& a = s.sums.area[2 * k];
+        column += a.area;
+        if (a.area > 0) {
+          EXPECT_NEAR(norm(a.opening - opening), 0, 1e-14);
+        }
+      }
+    EXPECT_NEAR(column, 2, 0.01) << i;  // thickness 2; midpoints of segments of 0.489 cells
+  }
+}
+
+Vec2 turn(Vec2 x, double a) {
+  return {std::cos(a) * x.x - std::sin(a) * x.y, std::sin(a) * x.x + std::cos(a) * x.y};
+}
+
+/// Largest and least gap over all nodes with both fields of crack 0.
+std::pair<double, double> gaps(Setting& s, double least_mass = 0) {
+  sum(s, exec::Space());
+  double low = 1e9, high = -1e9;
+  for (long i = 0; i < s.fields.nodes.size(); ++i) {
+    const NodeCracks& n = s.fields.nodes[i];
+    if (n.crack[0] < 0)
+      continue;
+    const ContactField* f = &s.sums.field[4 * i];
+    if (f[0].mass <= least_mass || f[1].mass <= least_mass)
+      continue;
+    const double mass[4] = {f[0].mass, f[1].mass, f[2].mass, f[3].mass};
+    const Meetings m = find_meetings(n, mass, s.cracks.contact.data());
+    const double g = gap_of(m.list[0], f);
+    low = std::min(low, g);
+    high = std::max(high, g);
+  }
+  return {low, high};
+}
+
+TEST(ContactDetection, NoRigidMotionOpensOrClosesAGap) {
+  for (double angle : {0., 0.01, 0.5, 2.0, std::numbers::pi}) {
+    const Map rigid = [=](Vec2 X) { return turn(X - Vec2{12, 12}, angle) + Vec2{12.13, 11.91}; };
+    Setting s = make_setting({slanting}, rigid, rigid, ContactLaw::frictionless);
+    const auto [low, high] = gaps(s);
+    EXPECT_NEAR(low, 0, 2e-12) << angle;
+    EXPECT_NEAR(high, 0, 2e-12) << angle;
+  }
+}
+
+TEST(ContactDetection, TheGapIsTheJumpOfDisplacementAcrossTheCrack) {
+  for (double jump : {-0.02, 0.02, 0.1}) {
+    for (double slip : {0., 0.15}) {
+      const Map open = [=](Vec2 X) { return X.y > 12.3 ? X + Vec2{slip, jump} : X; };
+      const Map plane = [=](Vec2 X) { return X + Vec2{0.5 * slip, 0.5 * jump}; };
+      Setting s = make_setting({level}, open, plane, ContactLaw::frictionless);
+      const auto [low, high] = gaps(s);
+      EXPECT_NEAR(low, jump, 1e-13);
+      EXPECT_NEAR(high, jump, 1e-13);
+    }
+  }
+}
+
+TEST(ContactDetection, CompressionClosesTheGapAndPenetratesLittle) {
+  const Map squeeze = [](Vec2 X) { return Vec2{X.x, 12.3 + (X.y - 12.3) * (1 - 1e-3)}; };
+  Setting s = make_setting({level}, squeeze, squeeze, ContactLaw::frictionless);
+  const auto [low, high] = gaps(s);
+  EXPECT_LT(high, 0);
+  EXPECT_GT(low, -2e-3);  // of a cell
+}
+
+// ---- the stages ---------------------------------------------------------------------------------------------
+
+/// Momenta of the after-contact state, whatever a stage keeps.
+void random_motion(Setting& s, unsigned seed) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const long slots = s.grid.mass.size();
+  s.grid.q.resize(4 * slots);
+  s.grid.again.resize(2 * slots);
+  s.grid.high.resize(2 * slots);
+  for (double& q : s.grid.q)
+    q = any(rng);
+  for (double& q : s.grid.again)
+    q = any(rng);
+  for (double& q : s.grid.high)
+    q = any(rng);
+}
+
+struct StageData {
+  ContactStage stage;
+  bool momentum;
+  int stride;
+  exec::Array<double> Grid<double>::*data;
+};
+const StageData stages[] = {{ContactStage::before, true, 4, &Grid<double>::q},
+                            {ContactStage::after, false, 4, &Grid<double>::q},
+                            {ContactStage::again, true, 2, &Grid<double>::again},
+                            {ContactStage::higher, false, 2, &Grid<double>::high}};
+
+Setting crossing_setting(ContactLaw a, ContactLaw b) {
+  Setting s = make_setting({slanting, upright}, stay, stay, a);
+  s.cracks.contact[0] = {a, 0.3, 50, 20};
+  s.cracks.contact[1] = {b, 0.2, 1e9, 5};
+  sum(s, exec::Space());
+  set_masses(s);
+  return s;
+}
+
+TEST(ContactKernel, KeepsTheMomentumOfEveryNodeInEveryStage) {
+  for (ContactLaw law :
+       {ContactLaw::bonded, ContactLaw::stick, ContactLaw::frictionless, ContactLaw::coulomb, ContactLaw::interface})
+    for (const StageData& st : stages) {
+      Setting s = crossing_setting(law, ContactLaw::frictionless);
+      random_motion(s, 3);
+      const Grid<double> before = s.grid;
+      ContactReport report;
+      contact(exec::Space(), s.grid, s.fields, s.cracks, {}, st.stage, dt, s.sums, report);
+      EXPECT_EQ(report.capped, 0);
+      EXPECT_GT(report.touching, 5) << name_of(law);
+      double change = 0, kinetic = 0;
+      for (const NodeCracks& n : s.fields.nodes) {
+        if (n.crack[0] < 0)
+          continue;
+        Vec2 sum_before, sum_after;
+        double scale = 0;
+        for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+          const long slot = f == 0 ? n.node : long{s.lattice.nodes()} + s.fields.extra[n.node] + f - 1;
+          const double m = s.grid.mass[slot];
+          if (m == 0)
+            continue;
+          const double *was = &(before.*st.data)[st.stride * slot], *is = &(s.grid.*st.data)[st.stride * slot];
+          const double factor = st.momentum ? 1 : m;
+          const Vec2 p0 = factor * Vec2{was[0], was[1]}, p1 = factor * Vec2{is[0], is[1]};
+          sum_before += p0;
+          sum_after += p1;
+          scale += norm(p0);
+          change += norm(p1 - p0);
+          kinetic += (dot(p1, p1) - dot(p0, p0)) / (2 * m);
+          if (st.stage == ContactStage::after) {
+            EXPECT_NEAR(was[2] + (is[0] - was[0]) / dt, is[2], 1e-12 * std::abs(is[2]) + 1e-12);
+            EXPECT_NEAR(was[3] + (is[1] - was[1]) / dt, is[3], 1e-12 * std::abs(is[3]) + 1e-12);
+          } else if (st.stride == 4) {
+            EXPECT_EQ(was[2], is[2]);
+            EXPECT_EQ(was[3], is[3]);
+          }
+        }
+        EXPECT_NEAR(norm(sum_after - sum_before), 0, 2e-15 * scale);
+      }
+      EXPECT_GT(change, 0.1);
+      EXPECT_NEAR(report.kinetic, kinetic, 1e-10 * std::abs(kinetic) + 1e-13);
+      if (law != ContactLaw::interface) {
+        EXPECT_LT(report.kinetic, 0);
+      }
+    }
+}
+
+TEST(ContactKernel, IsTheSameToTheBitInEverySpaceAndOnAnyNumberOfThreads) {
+  std::vector<double> first;
+  using exec::Kind;
+  for (const auto& [kind, threads] : {std::pair{Kind::serial, 1},
+                                      {Kind::openmp, 1},
+                                      {Kind::openmp, 2},
+                                      {Kind::openmp, 4},
+                                      {Kind::stdpar, 1},
+                                      {Kind::stdpar, 2},
+                                      {Kind::stdpar, 4}}) {
+    const exec::Space space(kind, threads);
+    Setting s = crossing_setting(ContactLaw::coulomb, ContactLaw::interface);
+    s.sums = {};
+    sum(s, space);
+    random_motion(s, 5);
+    ContactReport report;
+    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::before, dt, s.sums, report);
+    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report);
+    std::vector<double> all(s.grid.q.begin(), s.grid.q.end());
+    for (const ContactField& f : s.sums.field)
+      all.insert(all.end(), {f.mass, f.area, f.x.x, f.x.y, f.X.x, f.X.y});
+    for (const ContactArea& a : s.sums.area)
+      all.insert(all.end(), {a.area, a.opening.x, a.opening.y});
+    all.insert(all.end(), {report.kinetic, report.interface_work, report.penetration, report.gap});
+    if (first.empty())
+      first = all;
+    ASSERT_EQ(first.size(), all.size());
+    EXPECT_EQ(std::memcmp(first.data(), all.data(), all.size() * sizeof(double)), 0)
+        << exec::name(kind) << " " << threads;
+  }
+}
+
+/// Upper half moves down at 1 m/s, lower half rests.
+void approach(Setting& s) {
+  s.grid.q.resize(4 * s.grid.mass.size());
+  s.grid.q.zero();
+  for (long i = 0; i < s.fields.nodes.size(); ++i) {
+    const NodeCracks& n = s.fields.nodes[i];
+    if (n.crack[0] < 0)
+      continue;
+    const bool crossing_above = n.side[0] == Side::above;
+    const long slot = crossing_above ? s.lattice.nodes() + s.fields.extra[n.node] : n.node;
+    s.grid.q[4 * slot + 1] = -1;
+  }
+}
+
+ContactReport touch(double jump, ContactDetection by, ContactLaw law = ContactLaw::frictionless, double J = 1) {
+  const Map open = [=](Vec2 X) { return X.y > 12.3 ? X + Vec2{0, jump} : X; };
+  const Map plane = [=](Vec2 X) { return X + Vec2{0, 0.5 * jump}; };
+  Setting s = make_setting({level}, open, plane, law);
+  for (double& a : s.particles.J)
+    a = J;
+  sum(s, exec::Space());
+  set_masses(s);
+  approach(s);
+  ContactReport report;
+  ContactRules rules;
+  rules.detection = by;
+  contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::after, dt, s.sums, report);
+  return report;
+}
+
+TEST(ContactKernel, DisplacementDetectionWaitsUntilTheGapCloses) {
+  for (ContactLaw law : {ContactLaw::frictionless, ContactLaw::coulomb, ContactLaw::stick}) {
+    const ContactReport open = touch(0.2, ContactDetection::displacement, law);  // 0.01 m of approach in this step
+    EXPECT_EQ(open.touching, 0);
+    EXPECT_GT(open.apart, 0);
+    EXPECT_EQ(open.kinetic, 0);
+    const ContactReport closed = touch(-1e-3, ContactDetection::displacement, law);
+    EXPECT_EQ(closed.apart, 0);
+    EXPECT_GT(closed.touching, 0);
+    EXPECT_NEAR(closed.penetration, 1e-3, 1e-12);
+  }
+  const ContactReport closing = touch(0.009, ContactDetection::displacement);
+  EXPECT_GT(closing.touching, 0);
+  EXPECT_NEAR(closing.gap, 0.009, 1e-12);
+}
+
+TEST(ContactKernel, VelocityDetectionTouchesEarlyAndIsCounted) {
+  // one cell apart: nodes between the halves see a volume well below that of their cells
+  const ContactReport velocity = touch(1, ContactDetection::velocity);
+  EXPECT_GT(velocity.touching, 0);
+  EXPECT_GT(velocity.early, 0);
+  EXPECT_EQ(touch(1, ContactDetection::displacement).touching, 0);
+}
+
+TEST(ContactKernel, VolumeDetectionFollowsItsThreeRanges) {
+  EXPECT_EQ(touch(0, ContactDetection::volume, ContactLaw::frictionless, 0.85).touching, 0);
+  EXPECT_EQ(touch(0, ContactDetection::volume, ContactLaw::frictionless, 0.85).early, 0);
+  EXPECT_GT(touch(0, ContactDetection::volume, ContactLaw::frictionless, 1).touching, 0);
+  EXPECT_GT(touch(0, ContactDetection::volume, ContactLaw::frictionless, 1.2).touching, 0);
+  // parting faces: free in the gray range, held above it
+  for (double J : {1., 1.2}) {
+    Setting s = make_setting({level}, stay, stay, ContactLaw::frictionless);
+    for (double& a : s.particles.J)
+      a = J;
+    sum(s, exec::Space());
+    set_masses(s);
+    approach(s);
+    for (double& q : s.grid.q)
+      q = -q;
+    ContactReport report;
+    ContactRules rules;
+    rules.detection = ContactDetection::volume;
+    contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::before, dt, s.sums, report);
+    EXPECT_EQ(report.touching > 0, J > 1.1);
+  }
+}
+
+TEST(ContactKernel, BondedCracksMakeOneFieldOfAll) {
+  Setting s = crossing_setting(ContactLaw::bonded, ContactLaw::bonded);
+  random_motion(s, 7);
+  s.sums = {};  // bonded faces need no detection
+  ContactReport report;
+  contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report);
+  int full = 0;
+  for (const NodeCracks& n : s.fields.nodes) {
+    if (n.crack[0] < 0)
+      continue;
+    const double* q = &s.grid.q[4 * n.node];
+    for (int f = 1; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+      const long slot = long{s.lattice.nodes()} + s.fields.extra[n.node] + f - 1;
+      if (s.grid.mass[slot] == 0 || s.grid.mass[n.node] == 0)
+        continue;
+      EXPECT_EQ(s.grid.q[4 * slot], q[0]);
+      EXPECT_EQ(s.grid.q[4 * slot + 1], q[1]);
+      full += f == 3;
+    }
+  }
+  EXPECT_GT(full, 0);
+}
+
+TEST(ContactKernel, RefusesToGuessWithoutItsSums) {
+  Setting s = crossing_setting(ContactLaw::frictionless, ContactLaw::bonded);
+  random_motion(s, 7);
+  s.sums = {};
+  ContactReport report;
+  EXPECT_THROW(contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report), Error);
+}
+
+// ---- fields that meet diagonally ----------------------------------------------------------------------------
+
+TEST(ContactMeetings, DiagonalFieldsMeetAlongTheSumOfBothNormals) {
+  NodeCracks n;
+  n.node = 0;
+  n.crack[0] = 0;
+  n.crack[1] = 1;
+  n.normal[0] = n.normal0[0] = {0, -1};
+  n.normal[1] = n.normal0[1] = {1, 0};
+  const ContactSettings laws[2] = {{ContactLaw::frictionless}, {ContactLaw::coulomb, 0.3}};
+  // where the particles of a field lie, from its bits and the sides: above crack 0 is up, above crack 1 is left
+  for (Side a : {Side::above, Side::below})
+    for (Side b : {Side::above, Side::below})
+      for (const auto& [f, g] : {std::pair{0, 3}, {1, 2}}) {
+        n.side[0] = a;
+        n.side[1] = b;
+        const auto place = [&](int field) {
+          const bool up = ((field & 1) != 0) == (a == Side::above), left = ((field & 2) != 0) == (b == Side::above);
+          return Vec2{left ? -1. : 1., up ? 1. : -1.};
+        };
+        double mass[4] = {};
+        mass[f] = 2;
+        mass[g] = 3;
+        const Meetings m = find_meetings(n, mass, laws);
+        ASSERT_EQ(m.count, 1);
+        const Meeting& d = m.list[0];
+        EXPECT_NEAR(norm(d.normal), 1, 1e-15);
+        // the normal leads from the one field's place to the other's
+        EXPECT_NEAR(dot(d.normal, place(d.below) - place(d.above)), norm(place(d.below) - place(d.above)), 1e-15 * 4);
+        EXPECT_EQ(d.law.law, ContactLaw::coulomb);
+        mass[f ^ 1] = 1;  // a field between them: two meetings of neighbours, none across
+        EXPECT_EQ(find_meetings(n, mass, laws).count, 2);
+      }
+}
+
+}  // namespace
+}  // namespace riven
