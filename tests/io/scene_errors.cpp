@@ -18,6 +18,7 @@ struct Wrong {
 const Wrong cases[] = {
     {"syntax", "time = \"2 ms\"", "time = 2 ms", "plate.toml:3", "not TOML", "quotes"},
     {"triple_bracket", "[[crack]]", "[[[crack]]]", "plate.toml:26", "not TOML", "toml.io"},
+    {"beyond_ascii", "plane =", "plané =", "plate.toml:4", "not TOML", "texts stand in quotes"},
     {"unknown_key", "plane =", "plnae =", "plate.toml:4: solver.plnae", "unknown key 'plnae'", "'plane'"},
     {"unknown_table", "[grid]", "[gird]", "plate.toml:5: gird", "unknown table 'gird'", "'grid'"},
     {"unknown_array", "[[crack]]", "[[crak]]", "plate.toml:26: crak", "unknown key 'crak'", "'crack'"},

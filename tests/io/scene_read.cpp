@@ -226,3 +226,9 @@ TEST(ReadScene, CracksFromAFile) {
   EXPECT_EQ(trouble(".").code, Exit::file);
   std::filesystem::remove_all(folder);
 }
+
+TEST(ReadScene, TextsAndCommentsMayGoBeyondAscii) {
+  EXPECT_EQ(read(changed("title = \"plate\"", "title = \"\"\"Ri\u00df \\\n  \"\"\" # \u00b5m \"")).title, "Ri\u00df ");
+  EXPECT_EQ(read(changed("title = \"plate\"", "title = 'a\u00b5\\' # \"")).title, "a\u00b5\\");
+  EXPECT_DOUBLE_EQ(read(changed("cell = \"0.5 mm\"", "cell = \"500 \u00b5m\"")).cell, 5e-4);
+}
