@@ -16,4 +16,7 @@ struct CrackOpening {
 /// One entry per point of all cracks, in their order.
 std::vector<CrackOpening> crack_openings(const Cracks& cracks);
 
+/// Normal opening of one crack where its magnitude is largest, m; negative where the faces overlap.
+double extreme_opening(const Cracks& cracks, int crack);
+
 }  // namespace riven

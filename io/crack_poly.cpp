@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "io/crack_opening.hpp"
 #include "io/frames.hpp"
 
@@ -16,6 +18,15 @@ std::vector<CrackOpening> crack_openings(const Cracks& cracks) {
     }
   }
   return all;
+}
+
+double extreme_opening(const Cracks& cracks, int crack) {
+  const std::vector<CrackOpening> all = crack_openings(cracks);
+  double extreme = 0;
+  for (int i = cracks.start[static_cast<std::size_t>(crack)]; i < cracks.start[static_cast<std::size_t>(crack) + 1]; ++i)
+    if (std::abs(all[static_cast<std::size_t>(i)].normal) > std::abs(extreme))
+      extreme = all[static_cast<std::size_t>(i)].normal;
+  return extreme;
 }
 
 PolyData crack_poly(const Cracks& cracks) {

@@ -2,30 +2,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/laws/elastic.hpp"
 #include "io/frames.hpp"
+#include "io/particle_stress.hpp"
 
 namespace riven {
 namespace {
-
-struct Cauchy {
-  double xx = 0, yy = 0, zz = 0, xy = 0;
-};
-
-double von_mises(const Cauchy& s) {
-  const double a = s.xx - s.yy, b = s.yy - s.zz, c = s.zz - s.xx;
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.xy * s.xy);
-}
-
-LawState<double> law_state(const Particles<double, 2>& p, int i) {
-  LawState<double> s;
-  s.F = p.F[0].empty() ? Mat2<double>{1, 0, 0, 1} : Mat2<double>{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
-  s.J = p.J.empty() ? det(s.F) : p.J[i];
-  s.xx = p.stress[0][i];
-  s.yy = p.stress[1][i];
-  s.xy = p.stress[2][i];
-  return s;
-}
 
 /// Particle numbers in the order of their ids.
 std::vector<int> order_by_id(const Particles<double, 2>& p) {
@@ -53,23 +34,8 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
   const std::vector<int> order = order_by_id(p);
   const auto n = static_cast<std::int64_t>(order.size());
 
-  std::vector<AnyElastic<double>> laws;
-  for (const Material& m : scene.materials)
-    laws.emplace_back(m, scene.plane);
+  const ParticleStress stress(p, scene);
   const auto body = [&](int i) -> const Body& { return scene.bodies[p.body[i]]; };
-
-  std::vector<Cauchy> stress(order.size());  // by particle number
-  Reals ratio(order.size());
-  for (const int i : order) {
-    const AnyElastic<double>& law = laws[static_cast<std::size_t>(body(i).material)];
-    const LawState<double> state = law_state(p, i);
-    const double volume = state.J * law.thickness_ratio(state.J);
-    const double scale = scene.materials[static_cast<std::size_t>(body(i).material)].density / volume;
-    ratio[static_cast<std::size_t>(i)] = volume;
-    stress[static_cast<std::size_t>(i)] = {scale * state.xx, scale * state.yy, scale * law.stress_zz(state),
-                                           scale * state.xy};
-  }
-  const auto stress_of = [&](int i) -> const Cauchy& { return stress[static_cast<std::size_t>(i)]; };
 
   PolyData d;
   d.kind = PolyData::Cells::vertices;
@@ -96,13 +62,13 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
       o.insert(o.end(), {p.x[0][i] - p.x0[0][i], p.x[1][i] - p.x0[1][i], 0.0});
     }));
   a.push_back(gather<double>("stress", "Pa", 6, order, [&](int i, Reals& o) {
-    const Cauchy& s = stress_of(i);
+    const CauchyStress s = stress.cauchy(i);
     o.insert(o.end(), {s.xx, s.yy, s.zz, s.xy, 0.0, 0.0});
   }));
   a.push_back(
-      gather<double>("von_mises", "Pa", 1, order, [&](int i, Reals& o) { o.push_back(von_mises(stress_of(i))); }));
+      gather<double>("von_mises", "Pa", 1, order, [&](int i, Reals& o) { o.push_back(von_mises(stress.cauchy(i))); }));
   a.push_back(
-      gather<double>("J", "", 1, order, [&](int i, Reals& o) { o.push_back(ratio[static_cast<std::size_t>(i)]); }));
+      gather<double>("J", "", 1, order, [&](int i, Reals& o) { o.push_back(stress.volume_ratio(i)); }));
   if (!p.F[0].empty())
     a.push_back(gather<double>("deformation_gradient", "", 4, order, [&](int i, Reals& o) {
       o.insert(o.end(), {p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]});
@@ -110,7 +76,7 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
   const auto& extra = scene.output.fields;
   if (std::find(extra.begin(), extra.end(), "fringe") != extra.end())
     a.push_back(gather<double>("fringe", "", 1, order, [&](int i, Reals& o) {
-      const Cauchy& s = stress_of(i);
+      const CauchyStress s = stress.cauchy(i);
       o.push_back(std::cos(scene.output.fringe_constant * std::hypot(s.xx - s.yy, 2 * s.xy)));
     }));
   return d;

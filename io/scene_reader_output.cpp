@@ -18,7 +18,8 @@ ProbeKeys keys_of(Probe::Kind kind) {
     case Probe::Kind::displacement:
     case Probe::Kind::velocity: return {true, true, false};
     case Probe::Kind::stress: return {true, false, true};
-    case Probe::Kind::reaction: return {false, true, false};
+    case Probe::Kind::reaction:
+    case Probe::Kind::travel: return {false, true, false};
     case Probe::Kind::mean_stress: return {false, false, true};
     case Probe::Kind::crack_opening: break;
   }
@@ -37,6 +38,7 @@ Probe read_probe(const Table& t, size_t i, const Scene& s) {
   unused("point", keys.point);
   unused("axis", keys.axis);
   unused("component", keys.component);
+  unused("over", p.kind == Probe::Kind::reaction || p.kind == Probe::Kind::travel);
   if (keys.point)
     p.point = t.vector("point", dimension::length);
   if (keys.axis)
@@ -49,9 +51,11 @@ Probe read_probe(const Table& t, size_t i, const Scene& s) {
   if (p.kind == Probe::Kind::crack_opening) {
     const auto names = names_of(s.cracks);
     p.target = names[t.one_of("target", names)];
-  } else if (p.kind == Probe::Kind::reaction) {
+  } else if (p.kind == Probe::Kind::reaction || p.kind == Probe::Kind::travel) {
     const auto names = names_of(s.grips);
     p.target = names[t.one_of("target", names)];
+    if (t.has("over"))
+      p.over = t.quantity("over", p.kind == Probe::Kind::travel ? dimension::length : dimension::area, range::positive);
   } else if (t.has("target")) {
     t.refuse("target", fmt::format("a probe of kind {} has no target", name_of(p.kind)));
   }
@@ -75,7 +79,7 @@ void read_output(const Table& root, Scene& s) {
     s.output.fringe_constant = t.quantity("fringe_constant", dimension::stress_optic, range::positive);
   else if (!s.output.fields.empty())
     t.refuse("fringe_constant", "the fringe field needs its constant", "", "fringe_constant = \"0.0889 1/MPa\"");
-  for (const Table& probe : root.tables("probe", {"name", "kind", "point", "axis", "component", "target"}))
+  for (const Table& probe : root.tables("probe", {"name", "kind", "point", "axis", "component", "target", "over"}))
     s.probes.push_back(read_probe(probe, s.probes.size(), s));
 }
 

@@ -15,7 +15,7 @@ void read_grid(const Table& root, Scene& s) {
 void read_solver(const Table& root, Scene& s) {
   const Table t =
       root.table("solver", {"time", "plane", "thickness", "shape", "transfer", "order", "pic_fraction", "stress_update",
-                            "cfl", "dt_max", "crack_visibility", "scatter", "deterministic", "exec", "threads"});
+                            "cfl", "dt_max", "scatter", "deterministic", "exec", "threads"});
   s.end_time = t.quantity("time", dimension::time, range::positive);
   s.plane = t.choice("plane", std::optional(s.plane));
   s.thickness = t.quantity("thickness", dimension::length, range::positive, s.thickness);
@@ -26,7 +26,6 @@ void read_solver(const Table& root, Scene& s) {
   s.stress_update = t.choice("stress_update", std::optional(s.stress_update));
   s.cfl = t.number("cfl", Range{0, 2, true}, s.cfl);
   s.dt_max = t.quantity("dt_max", dimension::time, range::positive, s.dt_max, "none");
-  s.crack_visibility = t.flag("crack_visibility", s.crack_visibility);
   s.deterministic = t.flag("deterministic", s.deterministic);
   s.scatter = t.choice("scatter", std::optional(s.deterministic ? ScatterKind::ordered : s.scatter));
   if (s.deterministic && s.scatter != ScatterKind::ordered)

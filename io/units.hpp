@@ -16,6 +16,7 @@ struct Dimension {
 namespace dimension {
 inline const Dimension time{"time", "s", {"s", "ms", "us"}};
 inline const Dimension length{"length", "m", {"mm", "m", "um", "cm"}};
+inline const Dimension area{"area", "m^2", {"mm^2", "m^2", "cm^2"}};
 inline const Dimension speed{"speed", "m/s", {"m/s", "mm/s", "mm/ms"}};
 inline const Dimension acceleration{"acceleration", "m/s^2", {"m/s^2", "mm/s^2"}};
 inline const Dimension stress{"stress", "Pa", {"MPa", "GPa", "kPa", "Pa"}};

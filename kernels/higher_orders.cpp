@@ -70,7 +70,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
       quad_at<Real>(next + 4 * n) = quad_at<Real>(term + 4 * n) + (-inverse) * quad_at<Real>(next + 4 * n);
     });
     if (plan.constraints)
-      prescribe_velocities(space, s, Stage::term, 1);
+      prescribe_velocities(space, s, Stage::term);
     g.term.swap(g.next);
     exec::parallel_for(space, "higher orders: sum", slots,
                        [=, high = g.high.data(), term = g.term.data(), next = g.next.data()](long n) {

@@ -125,15 +125,18 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
   c.list.resize(static_cast<long>(list.size()));
   std::copy(list.begin(), list.end(), c.list.begin());
   c.impulse.resize(c.list.size());
+  c.carried.resize(8 * c.list.size());
+  c.carried.zero();
 }
 
 template <class Real>
-void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double impulse_weight) {
+void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage) {
   Constraints& c = s.constraints;
   const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const Constraint* list = c.list.data();
   const ConstraintOwner* owners = c.owners.data();
   Vec2* impulse = c.impulse.data();
+  double* carried = c.carried.data();
   const Real* mass = s.grid.mass.data();
   Real* q = stage == Stage::again ? s.grid.again.data() : stage == Stage::term ? s.grid.next.data() : s.grid.q.data();
   const bool momenta = stage == Stage::before || stage == Stage::again;
@@ -154,21 +157,24 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
         Real& value = q[4 * slot + axis];
         const double change = momenta ? m * v - value : m * (v - value);
         value = Real(momenta ? m * v : v);
+        double& before = carried[8 * n + 2 * f + axis];
+        if (stage == Stage::before)
+          before = change;
         if (stage == Stage::after)
-          q[4 * slot + 2 + axis] += Real(change / m * inv_dt);
+          q[4 * slot + 2 + axis] += Real((change + before) / m * inv_dt);
         given[axis] += change;
       }
     }
     impulse[n] = {given[0], given[1]};
   });
-  if (impulse_weight == 0)
-    return;
+  if (stage == Stage::again)
+    return;  // changes strain rates only; no impulse reaches the particles
   for (long n = 0; n < c.list.size(); ++n) {
     const Vec2 x = s.grid.lattice.position(list[n].node);
     for (int axis = 0; axis < 2; ++axis) {
       if (!(list[n].mask & (1u << axis)))
         continue;
-      const Vec2 part = impulse_weight * (axis == 0 ? Vec2{impulse[n].x, 0} : Vec2{0, impulse[n].y});
+      const Vec2 part = axis == 0 ? Vec2{impulse[n].x, 0} : Vec2{0, impulse[n].y};
       ConstraintOwner& o = c.owners[static_cast<size_t>(list[n].owner[axis])];
       o.impulse += part;
       o.torque_impulse += cross(x, part);
@@ -188,18 +194,16 @@ void settle_constraints(State<Real, 2>& s) {
     o.work += o.work_now;
     o.impulse = {};
     o.torque_impulse = o.work_now = 0;
+    o.travel += o.move(s.clock.dt);
   }
-  for (GripBlock& g : c.grips) {
-    const ConstraintOwner& o = c.owners[static_cast<size_t>(g.owner)];
-    const Vec2 move = 0.5 * s.clock.dt * Vec2{o.now[0] + o.next[0], o.now[1] + o.next[1]};
+  for (GripBlock& g : c.grips)
     for (Vec2& p : g.points)
-      p += move;
-  }
+      p += c.owners[static_cast<size_t>(g.owner)].move(s.clock.dt);
 }
 
 template void make_constraints(const Scene&, State<double, 2>&);
 template void list_constraints(const Plan&, State<double, 2>&);
-template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage, double);
+template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage);
 template void settle_constraints(State<double, 2>&);
 
 }  // namespace riven

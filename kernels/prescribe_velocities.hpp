@@ -1,8 +1,8 @@
 // Prescribed grid velocities on every field of the nodes of fixed lines, symmetry planes and grips, and the reaction
-// that they take:
+// that they take. With v0 = p / m as the particles gave it,
 //   before the momentum update   p = m v(t)
-//   after it                     v = v(t + dt), a += (v(t + dt) - v~) / dt
-// The impulse given to the body is the change of momentum that reaches the particles.
+//   after it                     v = v(t + dt), a = (v(t + dt) - v0) / dt
+// so that all of the impulse reaches the particles, whichever way they take over the grid's velocity.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
@@ -20,9 +20,8 @@ void make_constraints(const Scene&, State<Real, 2>&);
 template <class Real>
 void list_constraints(const Plan&, State<Real, 2>&);
 
-/// `impulse_weight`: how much of this stage's impulse reaches the particles (0 or 1, alpha for PIC before).
 template <class Real>
-void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double impulse_weight);
+void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage);
 
 /// Ends the step: books impulses and work, moves the grips, turns impulses into reaction forces.
 template <class Real>

@@ -45,7 +45,7 @@ class Simulation {
   Vec2 gravity() const;         ///< body force per mass now, m/s^2
   double grid_damping() const;  ///< 1/s
   double particle_damping() const;
-  /// How much of the impulses given before the momentum update reaches the particles.
+  /// How much of contact's impulses before the momentum update reaches the particles.
   double early_impulse() const;
 };
 

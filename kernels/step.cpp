@@ -90,7 +90,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
     list_constraints(m.plan, m.state);
-    prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
+    prescribe_velocities(m.space, m.state, Stage::before);
   });
   add(p.contact, "contact before", "contact", contact_before_update);
   add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
@@ -99,7 +99,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.plan, m.state); });
   add(true, "advance grid", "", [before](Simulation& m) { advance_grid(m.space, m.state, before, m.grid_damping()); });
   add(p.constraints, "boundary after", "boundary",
-      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after, 1); });
+      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after); });
   add(p.contact, "contact after", "contact", contact_after_update);
   add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields);
   add(p.particle_damping, "particle damping sums", "particle damping",
@@ -114,7 +114,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
     grid_to_particle_again(m.space, m.plan, m.state, rule(m));
   });
   add(again && p.constraints, "boundary again", "boundary",
-      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::again, 0); });
+      [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::again); });
   add(again && p.contact, "contact again", "contact", contact_after_extrapolation);
   add(again, "velocities again", "",
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });

@@ -47,7 +47,7 @@ Plan make_plan(const Scene& scene) {
   p.update = scene.stress_update;
   p.scatter = scene.deterministic ? ScatterKind::ordered : scene.scatter;
   p.cracks = !scene.cracks.empty();
-  if (p.cracks && !scene.crack_visibility) {
+  if (p.cracks) {
     for (const CrackLine& c : scene.cracks) {
       const ContactLaw law = c.contact.value_or(scene.contact).law;
       if (law == ContactLaw::ignored)

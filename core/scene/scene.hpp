@@ -131,13 +131,14 @@ struct CrackLine {
 
 /// A named result read from the fields at the end and at each history row.
 struct Probe {
-  enum class Kind { crack_opening, displacement, velocity, stress, reaction, mean_stress };
+  enum class Kind { crack_opening, displacement, velocity, stress, reaction, travel, mean_stress };
   std::string name;
   Kind kind = Kind::crack_opening;
   Vec2 point;          ///< nearest particle (at the start) for displacement, velocity, stress
   int axis = 1;        ///< component
   int axis2 = 1;       ///< stress: second index
   std::string target;  ///< crack or grip name
+  double over = 1;     ///< the result is divided by this: an area, m^2 (reaction), or a length, m (travel)
 };
 
 struct Output {
@@ -171,7 +172,6 @@ struct Scene {
   StressUpdate stress_update = StressUpdate::usavg;
   double cfl = 0.4;
   double dt_max = std::numeric_limits<double>::infinity();
-  bool crack_visibility = false;  ///< negative control: particles do not see nodes across a crack
   ScatterKind scatter = ScatterKind::atomic;
   bool deterministic = false;  ///< same bits on any thread count (implies ordered scatter)
   exec::Kind exec = exec::Kind::openmp;

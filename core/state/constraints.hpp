@@ -28,7 +28,9 @@ struct ConstraintOwner {
   double torque_impulse = 0;  ///< about the origin, N m s
   double work_now = 0;        ///< done on the body in this step, J
   double work = 0;            ///< done on the body so far, J
+  Vec2 travel;                ///< how far it has moved, m
   Vec2 reaction;              ///< force of the last step, N
+  Vec2 move(double dt) const { return 0.5 * dt * Vec2{now[0] + next[0], now[1] + next[1]}; }
 };
 
 struct GripBlock {
@@ -43,6 +45,7 @@ struct Constraints {
   std::vector<GripBlock> grips;
   exec::Array<Constraint> list;  ///< of this step
   exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
+  exec::Array<double> carried;    ///< [8 list] change of momentum of each field and component before the update
   exec::Array<int> at_node;      ///< [nodes] index into list + 1 while the list is made, else 0
 };
 

@@ -1,0 +1,35 @@
+// riven: many explicit cracks in deforming solids, by the material point method.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "cases/commands.hpp"
+#include "core/error.hpp"
+
+int main(int argc, char** argv) {
+  using riven::Exit;
+  CLI::App app{"riven: many explicit cracks in deforming solids, by the material point method"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", RIVEN_VERSION);
+  riven::add_run(app);
+  riven::add_plan(app);
+  riven::add_check(app);
+  riven::add_cases(app);
+  try {
+    app.parse(argc, argv);
+    return static_cast<int>(Exit::done);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) ? static_cast<int>(Exit::bad_input) : static_cast<int>(Exit::done);
+  } catch (const riven::Error& e) {
+    fmt::print(stderr, "riven: {}\n", e.what());
+    return static_cast<int>(e.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "riven: out of memory\n  try:     larger cells, or fewer particles_per_cell\n");
+    return static_cast<int>(Exit::internal);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "riven: internal error: {}\n", e.what());
+    return static_cast<int>(Exit::internal);
+  }
+}

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cases/commands.hpp"
+#include "core/scene/names.hpp"
+#include "io/progress.hpp"
+#include "io/run_scene.hpp"
+
+namespace riven {
+
+namespace {
+
+void print_header(const Simulation& m) {
+  fmt::print("{}\n", m.scene.title);
+  fmt::print("{} particles, {} on {} thread{}, {} scatter; effects: {}\n", m.state.particles.count(),
+             exec::name(m.space.kind()), m.space.threads(), m.space.threads() == 1 ? "" : "s", name_of(m.plan.scatter),
+             m.plan.effects().empty() ? "none" : fmt::to_string(fmt::join(m.plan.effects(), ", ")));
+  if (!m.scene.defaults.empty())
+    fmt::print("defaults: {}\n", fmt::join(m.scene.defaults, ", "));
+}
+
+void print_tasks(const Summary& s) {
+  double total = 0;
+  for (const Summary::Task& t : s.tasks)
+    total += t.seconds;
+  fmt::print("\n{:<38} {:>10} {:>10} {:>7}\n", "task", "seconds", "calls", "share");
+  for (const Summary::Task& t : s.tasks)
+    fmt::print("{:<38} {:>10.3f} {:>10} {:>6.1f}%\n", t.label, t.seconds, t.calls, 100 * t.seconds / total);
+}
+
+void print_summary(const Summary& s, const std::filesystem::path& folder) {
+  fmt::print("\n{} steps to {} in {}: {:.2f} million particle-steps/s\n", s.steps, format_time(s.time),
+             format_duration(s.wall_seconds), 1e-6 * s.particle_steps_per_second);
+  fmt::print("energy error {:.2e} of the largest energy, momentum error {:.1e}\n", s.energy.relative_error,
+             s.momentum_error);
+  for (const Summary::Value& p : s.probes)
+    fmt::print("{:<24} {:.6g} {}\n", p.name, p.value, p.unit);
+  constexpr size_t most = 20;
+  for (size_t i = 0; i < std::min(most, s.cracks.size()); ++i)
+    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm\n", s.cracks[i].name, 1e3 * s.cracks[i].max_opening,
+               1e3 * s.cracks[i].length);
+  if (s.cracks.size() > most)
+    fmt::print("... and {} more cracks in summary.json\n", s.cracks.size() - most);
+  for (const Summary::Warning& w : s.warnings)
+    fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x, w.first_place.y);
+  fmt::print("results in {}\n", folder.string());
+}
+
+struct Options {
+  SceneOptions scene;
+  std::string folder;
+  bool quiet = false, profile = false;
+};
+
+void run(const Options& o) {
+  const Scene scene = o.scene.read();
+  const exec::Space space(scene.exec, threads_of(scene));
+  Simulation simulation(scene, space);
+  const std::filesystem::path folder = o.folder.empty() ? "results/" + scene.name : o.folder;
+  if (!o.quiet)
+    print_header(simulation);
+  const Summary s = run_scene(simulation, {folder, o.quiet});
+  if (o.profile)
+    print_tasks(s);
+  if (!o.quiet)
+    print_summary(s, folder);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "runs a scene");
+  o->scene.add_to(*command);
+  command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");
+  command->add_flag("--quiet", o->quiet, "print nothing but errors");
+  command->add_flag("--profile", o->profile, "print the time of each task");
+  command->callback([o] { run(*o); });
+}
+
+}  // namespace riven

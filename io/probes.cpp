@@ -1,0 +1,110 @@
+#include "io/probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/crack_opening.hpp"
+#include "io/particle_stress.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Id of the particle nearest to a point.
+int nearest_particle(const Particles<double, 2>& p, Vec2 point) {
+  double least = std::numeric_limits<double>::infinity();
+  int id = 0;
+  for (long i = 0; i < p.count(); ++i) {
+    const Vec2 d = Vec2{p.x[0][i], p.x[1][i]} - point;
+    if (dot(d, d) < least || (dot(d, d) == least && p.id[i] < id)) {
+      least = dot(d, d);
+      id = p.id[i];
+    }
+  }
+  return id;
+}
+
+long position_of(const Particles<double, 2>& p, int id) {
+  return std::find(p.id.begin(), p.id.end(), id) - p.id.begin();
+}
+
+double component(const CauchyStress& s, const Probe& p) { return p.axis != p.axis2 ? s.xy : p.axis == 0 ? s.xx : s.yy; }
+
+double mean_stress(const Simulation& m, const Probe& probe) {
+  double sum = 0, volume = 0;
+  const ParticleStress stress(m.state.particles, m.scene);
+  for (long i = 0; i < m.state.particles.count(); ++i) {
+    const double v = stress.volume(i);
+    sum += v * component(stress.cauchy(i), probe);
+    volume += v;
+  }
+  return sum / volume;
+}
+
+double read_one(const Simulation& m, const Probe& probe, int target) {
+  const auto& p = m.state.particles;
+  const auto axis = static_cast<size_t>(probe.axis);
+  switch (probe.kind) {
+    case Probe::Kind::crack_opening: return extreme_opening(m.state.cracks, target);
+    case Probe::Kind::displacement: {
+      const long i = position_of(p, target);
+      return p.x[axis][i] - p.x0[axis][i];
+    }
+    case Probe::Kind::velocity: return p.v[axis][position_of(p, target)];
+    case Probe::Kind::stress: return component(ParticleStress(p, m.scene).cauchy(position_of(p, target)), probe);
+    case Probe::Kind::reaction: {
+      const Vec2 r = m.state.constraints.owners[static_cast<size_t>(target)].reaction;
+      return (axis == 0 ? r.x : r.y) / probe.over;
+    }
+    case Probe::Kind::travel: {
+      const Vec2 t = m.state.constraints.owners[static_cast<size_t>(target)].travel;
+      return (axis == 0 ? t.x : t.y) / probe.over;
+    }
+    case Probe::Kind::mean_stress: return mean_stress(m, probe);
+  }
+  return 0;
+}
+
+const char* unit(const Probe& p) {
+  switch (p.kind) {
+    case Probe::Kind::crack_opening:
+    case Probe::Kind::displacement: return "m";
+    case Probe::Kind::velocity: return "m/s";
+    case Probe::Kind::stress:
+    case Probe::Kind::mean_stress: return "Pa";
+    case Probe::Kind::reaction: return p.over == 1 ? "N" : "Pa";
+    case Probe::Kind::travel: return p.over == 1 ? "m" : "1";
+  }
+  return "";
+}
+
+}  // namespace
+
+Probes::Probes(const Simulation& m) : scene_(m.scene) {
+  const auto named = [](const auto& list, const std::string& name) {
+    const auto at = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+    return static_cast<int>(at - list.begin());
+  };
+  for (const Probe& p : m.scene.probes) switch (p.kind) {
+      case Probe::Kind::crack_opening: target_.push_back(named(m.scene.cracks, p.target)); break;
+      case Probe::Kind::reaction:
+      case Probe::Kind::travel: target_.push_back(named(m.state.constraints.owners, p.target)); break;
+      case Probe::Kind::mean_stress: target_.push_back(0); break;
+      default: target_.push_back(nearest_particle(m.state.particles, p.point));
+    }
+}
+
+std::vector<HistoryColumn> Probes::columns() const {
+  std::vector<HistoryColumn> list;
+  for (const Probe& p : scene_.probes) list.push_back({p.name, unit(p)});
+  return list;
+}
+
+std::vector<double> Probes::read(const Simulation& m) const {
+  std::vector<double> values;
+  for (size_t i = 0; i < target_.size(); ++i) values.push_back(read_one(m, m.scene.probes[i], target_[i]));
+  return values;
+}
+
+}  // namespace riven

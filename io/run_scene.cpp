@@ -1,0 +1,156 @@
+#include "io/run_scene.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/exec/timers.hpp"
+#include "core/scene/names.hpp"
+#include "io/frames.hpp"
+#include "io/history.hpp"
+#include "io/atomic_file.hpp"
+#include "io/probes.hpp"
+#include "io/progress.hpp"
+
+namespace riven {
+
+namespace {
+
+/// The quantities of every run, then the grips, then the scene's probes.
+class Recorder {
+ public:
+  Recorder(const std::filesystem::path& folder, const Simulation& m)
+      : m_(m), probes_(m), history_(folder / "history.csv", columns(m, probes_)) {}
+
+  void row() {
+    const auto& s = m_.state;
+    const Energy& e = s.ledger.energy;
+    const Momentum& p = s.ledger.momentum;
+    std::vector<double> v{s.clock.time,   s.clock.dt, e.kinetic,   e.strain,      e.external_work, e.damping, e.contact,
+                          e.numerical(), p.error(),  p.linear.x, p.linear.y, p.angular,  p.angular_error()};
+    for (const ConstraintOwner& o : s.constraints.owners)
+      v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
+    for (const double q : probes_.read(m_))
+      v.push_back(q);
+    history_.row(v);
+  }
+  std::vector<Summary::Value> probes() const {
+    std::vector<Summary::Value> list;
+    const std::vector<HistoryColumn> columns = probes_.columns();
+    const std::vector<double> values = probes_.read(m_);
+    for (size_t i = 0; i < values.size(); ++i)
+      list.push_back({columns[i].name, values[i], columns[i].unit});
+    return list;
+  }
+
+ private:
+  static std::vector<HistoryColumn> columns(const Simulation& m, const Probes& probes) {
+    std::vector<HistoryColumn> c{{"time", "s"},          {"dt", "s"},      {"kinetic", "J"},   {"strain", "J"},
+                                 {"external_work", "J"}, {"damping", "J"}, {"contact", "J"},   {"numerical", "J"},
+                                 {"momentum_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
+                                 {"angular_momentum", "kg m^2/s"}, {"angular_momentum_error", ""}};
+    for (const ConstraintOwner& o : m.state.constraints.owners)
+      for (const auto& [what, unit] : {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
+        c.push_back({o.name + " " + what, unit});
+    for (const HistoryColumn& p : probes.columns())
+      c.push_back(p);
+    return c;
+  }
+
+  const Simulation& m_;
+  Probes probes_;
+  History history_;
+};
+
+std::vector<Summary::Warning> warnings(const Simulation& m) {
+  std::vector<Summary::Warning> list;
+  const CrackFields& f = m.state.fields;
+  if (f.warning_both_sides > 0)
+    list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
+  if (f.warning_third_crack > 0)
+    list.push_back({"a node sees more than two cracks", f.warning_third_crack, f.warning_place[1]});
+  const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
+  if (capped > 0)
+    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, {}});
+  return list;
+}
+
+}  // namespace
+
+Summary summarize(const Simulation& m, double wall_seconds) {
+  const auto& s = m.state;
+  const Energy& e = s.ledger.energy;
+  Summary out;
+  out.scene = m.scene.name;
+  out.title = m.scene.title;
+  out.steps = s.clock.step;
+  out.time = s.clock.time;
+  out.wall_seconds = wall_seconds;
+  out.particles = s.particles.count();
+  out.particle_steps_per_second = static_cast<double>(out.particles) * static_cast<double>(out.steps) / wall_seconds;
+  out.threads = m.space.threads();
+  out.exec = exec::name(m.space.kind());
+  out.scatter = name_of(m.plan.scatter);
+  out.effects = m.plan.effects();
+  for (const Task& t : m.tasks)
+    out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
+  out.energy = {e.kinetic, e.strain, e.external_work, e.damping, e.contact, e.fracture, e.numerical(), e.relative_error()};
+  out.momentum_error = s.ledger.momentum.error();
+  out.angular_momentum_error = s.ledger.momentum.angular_error();
+  out.warnings = warnings(m);
+  out.cracks = summarize_cracks(s.cracks);
+  for (const ConstraintOwner& o : s.constraints.owners)
+    out.reactions.push_back({o.name, o.reaction});
+  return out;
+}
+
+Summary run_scene(Simulation& m, const RunOptions& options) {
+  const Scene& scene = m.scene;
+  const Clock& clock = m.state.clock;
+  make_folder(options.folder);
+  FrameWriter frames(options.folder, scene);
+  Recorder record(options.folder, m);
+  Progress progress(0, scene.end_time, m.state.particles.count(), options.quiet);
+  const double start = exec::Stopwatch::now();
+  const double row_every = scene.output.history_every > 0 ? scene.output.history_every : scene.end_time / 500;
+  const double frame_every = scene.output.frames > 0 ? scene.end_time / scene.output.frames : scene.end_time;
+
+  const auto close = [&](const char* status, const std::string& message) {
+    frames.write(clock.time, m.state.particles, m.state.cracks);
+    frames.finish();
+    Summary s = summarize(m, exec::Stopwatch::now() - start);
+    s.status = status;
+    s.message = message;
+    s.probes = record.probes();
+    write_summary(options.folder / "summary.json", s);
+    return s;
+  };
+
+  frames.write(0, m.state.particles, m.state.cracks);
+  record.row();
+  long rows = 1, written = 1;
+  try {
+    while (!m.finished()) {
+      m.step();
+      progress.update(clock.step, clock.time, clock.dt, clock.limiter);
+      const double reached = clock.time * (1 + 1e-12);
+      if (reached >= static_cast<double>(rows) * row_every || m.finished()) {
+        m.take_stock();
+        record.row();
+        rows = static_cast<long>(reached / row_every) + 1;
+      }
+      if (reached >= static_cast<double>(written) * frame_every && !m.finished()) {
+        frames.write(clock.time, m.state.particles, m.state.cracks);
+        written = static_cast<long>(reached / frame_every) + 1;
+      }
+    }
+  } catch (const Error& e) {
+    progress.finish();
+    if (e.code() == Exit::unstable)
+      close("unstable", e.what());
+    throw;
+  }
+  progress.finish();
+  return close("done", "");
+}
+
+}  // namespace riven

@@ -1,0 +1,23 @@
+// Runs a scene from its first step to its last: frames, history, summary, progress.
+#pragma once
+#include <filesystem>
+
+#include "io/summary.hpp"
+#include "kernels/simulation.hpp"
+
+namespace riven {
+
+struct RunOptions {
+  std::filesystem::path folder;
+  bool quiet = false;
+};
+
+/// Writes the results of `simulation` into the folder. A run that goes wrong ends with status "unstable" and what was
+/// computed so far on disk, its last state as the last frame; the Error is then thrown on. Throws Error (file) when
+/// results cannot be written.
+Summary run_scene(Simulation& simulation, const RunOptions& options);
+
+/// The summary of a simulation as it stands.
+Summary summarize(const Simulation& simulation, double wall_seconds);
+
+}  // namespace riven
