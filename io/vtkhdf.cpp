@@ -1,5 +1,7 @@
 #include "io/vtkhdf.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -18,6 +20,11 @@ std::size_t index_of(PolyData::Cells kind) {
   return kind == PolyData::Cells::vertices ? 0 : 1;
 }
 
+/// The path of an object in a group.
+std::string in(const std::string& group, const std::string& name) {
+  return fmt::format("{}/{}", group, name);
+}
+
 template <class T>
 void append_one(HdfFile& file, const std::string& dataset, T value) {
   file.append(dataset, &value, 1);
@@ -34,12 +41,12 @@ VtkHdfWriter::VtkHdfWriter(const fs::path& path) : file_(HdfFile::create(path)) 
   file_.put_attribute(root, "Version", std::vector<std::int64_t>{2, 0});
   file_.put_attribute(root, "Type", "PolyData");
   for (const std::string& group : topologies)
-    file_.make_group(root + "/" + group);
+    file_.make_group(in(root, group));
   for (const std::string group : {"PointData", "CellData"})
-    file_.make_group(root + "/" + group);
+    file_.make_group(in(root, group));
   file_.make_group(steps);
   for (const std::string group : {"PointDataOffsets", "CellDataOffsets"})
-    file_.make_group(steps + "/" + group);
+    file_.make_group(in(steps, group));
 }
 
 void VtkHdfWriter::check_same_arrays(const PolyData& data) {
@@ -75,11 +82,11 @@ void VtkHdfWriter::append_topology(const PolyData& data) {
     const auto& offsets = here ? data.offsets : no_cells;
     const auto& ids = here ? data.connectivity : no_ids;
     const auto cells = static_cast<std::int64_t>(offsets.size()) - 1;
-    const std::string group = root + "/" + topologies[k];
-    append_one(file_, group + "/NumberOfCells", cells);
-    append_one(file_, group + "/NumberOfConnectivityIds", static_cast<std::int64_t>(ids.size()));
-    file_.append(group + "/Offsets", offsets.data(), offsets.size());
-    file_.append(group + "/Connectivity", ids.data(), ids.size());
+    const std::string group = in(root, topologies[k]);
+    append_one(file_, in(group, "NumberOfCells"), cells);
+    append_one(file_, in(group, "NumberOfConnectivityIds"), static_cast<std::int64_t>(ids.size()));
+    file_.append(in(group, "Offsets"), offsets.data(), offsets.size());
+    file_.append(in(group, "Connectivity"), ids.data(), ids.size());
     cells_[k] += cells;
     ids_[k] += static_cast<std::int64_t>(ids.size());
   }
@@ -95,12 +102,12 @@ void VtkHdfWriter::append_arrays(const std::string& group, const std::vector<Pol
     if (a.name.find_first_of("/.") != std::string::npos || a.size() != static_cast<std::size_t>(rows * a.components))
       fail({Exit::internal, "an array has no proper name, or not one row per item", file_.path().string(), a.name, "",
             ""});
-    const std::string dataset = root + "/" + group + "/" + a.name;
+    const std::string dataset = in(in(root, group), a.name);
     const std::size_t width = a.components == 1 ? 0 : static_cast<std::size_t>(a.components);
     std::visit([&](const auto& v) { file_.append(dataset, v.data(), static_cast<std::size_t>(rows), width); }, a.data);
     if (steps_ == 0 && !a.unit.empty())
       file_.put_attribute(dataset, "unit", a.unit);
-    append_one(file_, steps + "/" + group + "Offsets/" + a.name, done);
+    append_one(file_, in(in(steps, group + "Offsets"), a.name), done);
   }
   done += rows;
 }
@@ -137,7 +144,7 @@ namespace {
 std::vector<PolyArray> read_arrays(const HdfFile& file, const std::string& group) {
   std::vector<PolyArray> arrays;
   for (const std::string& name : file.children(group)) {
-    const std::string dataset = group + "/" + name;
+    const std::string dataset = in(group, name);
     PolyArray a{name, 1, file.has_attribute(dataset, "unit") ? file.text_attribute(dataset, "unit") : "", {}};
     if (const auto extent = file.extent(dataset); extent.size() == 2)
       a.components = static_cast<int>(extent[1]);
@@ -168,9 +175,9 @@ TimedPolyData read_vtkhdf(const fs::path& path) {
   d.points = file.read<double>(root + "/Points");
   const bool lines = file.read<std::int64_t>(root + "/Lines/NumberOfCells").at(0) > 0;
   d.kind = lines ? PolyData::Cells::lines : PolyData::Cells::vertices;
-  const std::string group = root + "/" + topologies[index_of(d.kind)];
-  d.connectivity = file.read<std::int64_t>(group + "/Connectivity");
-  d.offsets = file.read<std::int64_t>(group + "/Offsets");
+  const std::string group = in(root, topologies[index_of(d.kind)]);
+  d.connectivity = file.read<std::int64_t>(in(group, "Connectivity"));
+  d.offsets = file.read<std::int64_t>(in(group, "Offsets"));
   d.point_arrays = read_arrays(file, root + "/PointData");
   d.cell_arrays = read_arrays(file, root + "/CellData");
   return frame;

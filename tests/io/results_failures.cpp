@@ -169,8 +169,10 @@ TEST(ResultsFailures, AKilledRunLeavesEveryFinishedFrameReadable) {
       }
       _exit(0);
     }
-    while (!std::filesystem::exists(folder / "frames/particles_000003.vtkhdf"))
+    while (!std::filesystem::exists(folder / "frames/particles_000003.vtkhdf")) {
+      ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "the writer must not end by itself";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(700 * attempt));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);

@@ -55,7 +55,8 @@ inline Particles<double, 2> particles(double t, int removed = 0) {
   p.id.resize(n);
   for (int k = 0; k < n; ++k) {
     const int id = n - 1 - k;
-    const double x = (id % nx + 0.5) * cell / 2, y = (id / nx + 0.5) * cell / 2;
+    const int column = id % nx, row = id / nx;
+    const double x = (column + 0.5) * cell / 2, y = (row + 0.5) * cell / 2;
     const double wave = std::numbers::pi / width, slope = amplitude * t * wave * std::cos(wave * x);
     p.id[k] = id;
     p.x0[0][k] = p.x[0][k] = x;
