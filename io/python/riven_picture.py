@@ -43,8 +43,15 @@ STRESS = {"sigma_xx": 0, "sigma_yy": 1, "sigma_zz": 2, "sigma_xy": 3}
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p")]
 
 
+def stress_name(name):
+    """stress_yy is sigma_yy."""
+    sigma = name.replace("stress_", "sigma_", 1)
+    return sigma if sigma in STRESS else name
+
+
 def field(frame, name):
     """Values and unit of a field: an array of the frame, a component of one, or a length."""
+    name = stress_name(name)
     if name in STRESS:
         return frame["stress"][:, STRESS[name]], "Pa"
     if name == "pressure":
@@ -175,7 +182,7 @@ def draw_frame(run, name, number, magnify, out, dpi=200):
     axes.set_aspect("equal")
     axes.set_xlabel("x [mm]")
     axes.set_ylabel("y [mm]")
-    label = SYMBOLS.get(name, name.replace("_", " "))
+    label = SYMBOLS.get(stress_name(name), name.replace("_", " "))
     bar = figure.colorbar(particles, ax=axes, extend=extend, fraction=0.046, pad=0.03)
     bar.set_label(f"{label} [{unit}]" if unit else label)
     title = run.summary.get("title") or run.summary.get("scene") or run.folder.resolve().name

@@ -61,7 +61,7 @@ class Results:
 
     @property
     def history(self):
-        """Columns of history.csv by name."""
+        """Columns of history.csv by name; where names repeat, the last, and each as "name [unit]"."""
         return self._load_history()[0]
 
     @property
@@ -133,7 +133,12 @@ class Results:
             columns, units = {}, {}
             for number, title in enumerate(header):
                 name, _, unit = title.rpartition(" [")
-                columns[name] = table[:, number]
-                units[name] = unit.rstrip("]")
+                for key in (name, title):
+                    columns[key] = table[:, number]
+                    units[key] = unit.rstrip("]")
+            names = [title.rpartition(" [")[0] for title in header]
+            for title, name in zip(header, names):
+                if names.count(name) == 1:
+                    del columns[title], units[title]
             self._history = columns, units
         return self._history
