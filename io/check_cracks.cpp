@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "io/check_scene.hpp"
+#include "io/checks.hpp"
 
-namespace riven {
+namespace riven::checks {
 
 namespace {
 
@@ -27,16 +24,6 @@ double length(const CrackLine& c) {
   return sum;
 }
 
-[[noreturn]] void refuse(const Scene& s, const CrackLine& c, std::string what, std::string value, std::string limit,
-                         std::string hint = {}) {
-  fail({Exit::bad_input, std::move(what), place(s, "crack " + c.name), std::move(value), std::move(limit),
-        std::move(hint)});
-}
-
-std::string text(Vec2 p) {
-  return fmt::format("({:.6g}, {:.6g}) mm", 1e3 * p.x, 1e3 * p.y);
-}
-
 /// True when some point of the crack, looked at every `spacing`, lies in a body.
 bool meets_body(const Scene& s, const CrackLine& c, double spacing) {
   for (size_t i = 1; i < c.points.size(); ++i) {
@@ -51,8 +38,8 @@ bool meets_body(const Scene& s, const CrackLine& c, double spacing) {
 
 void check_contact(const Scene& s, const std::string& key, const ContactSettings& c) {
   if (c.law == ContactLaw::interface && !(c.normal_stiffness > 0))
-    fail({Exit::bad_input, "an interface needs a normal stiffness", place(s, key),
-          fmt::format("{} Pa/m", c.normal_stiffness), "greater than 0", "law = \"frictionless\" for none"});
+    refuse(s, key, "an interface needs a normal stiffness", fmt::format("{} Pa/m", c.normal_stiffness),
+           "greater than 0", "law = \"frictionless\" for none");
 }
 
 }  // namespace
@@ -69,20 +56,21 @@ void check_cracks(const Scene& s) {
     for (size_t i = 0; i < c.points.size(); ++i) {
       const Vec2 p = c.points[i];
       if (i > 0 && norm(p - c.points[i - 1]) < 1e-9 * s.cell)
-        refuse(s, c, "the crack has a piece without length", fmt::format("point {} at {}", i + 1, text(p)),
-               "points that differ from the one before");
+        refuse(s, "crack " + c.name, "the crack has a piece without length",
+               fmt::format("point {} at {}", i + 1, text(p)), "points that differ from the one before");
       if (p.x < s.grid.lower.x || p.x > s.grid.upper.x || p.y < s.grid.lower.y || p.y > s.grid.upper.y)
-        refuse(s, c, "the grid is too small: the crack leaves it", fmt::format("point {} at {}", i + 1, text(p)),
-               text(s.grid.lower) + " to " + text(s.grid.upper), "a larger grid, or a crack that ends in it");
+        refuse(s, "crack " + c.name, "the grid is too small: the crack leaves it",
+               fmt::format("point {} at {}", i + 1, text(p)), text(s.grid.lower) + " to " + text(s.grid.upper),
+               "a larger grid, or a crack that ends in it");
     }
     segments += length(c) / (c.resolution > 0 ? c.resolution : s.cell / 2);
     if (segments > most_segments)
-      refuse(s, c, "the cracks have too many segments", fmt::format("{:.3g} m long", c.resolution),
+      refuse(s, "crack " + c.name, "the cracks have too many segments", fmt::format("{:.3g} with this crack", segments),
              fmt::format("at most {:.0e} segments", most_segments), "a larger resolution");
     if (!meets_body(s, c, spacing))
-      refuse(s, c, "no part of the crack lies in a body", text(c.points.front()) + " to " + text(c.points.back()),
-             "a crack through a body");
+      refuse(s, "crack " + c.name, "no part of the crack lies in a body",
+             text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body");
   }
 }
 
-}  // namespace riven
+}  // namespace riven::checks

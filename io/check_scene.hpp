@@ -6,12 +6,10 @@ namespace riven {
 
 /// Throws Error (bad_input) with the place of the first part that cannot be simulated as written: no body, equal
 /// names, a grid that is not whole cells, too small for what is in it or too large for memory, symmetry planes off the
-/// grid lines, fixed nodes without a node, bodies and grips without a particle, loads and probes without a body, cracks
+/// grid lines, fixed nodes without a node, bodies and grips without a particle, beyond a
+/// symmetry plane or in the same place, loads and probes without a body, cracks
 /// without length or outside every body, interfaces without stiffness.
 void check_scene(const Scene& s);
-
-/// The part of check_scene about cracks and contact.
-void check_cracks(const Scene& s);
 
 /// Where `key` or a named part ("crack left") was written; itself when the scene was not read from a file.
 std::string place(const Scene& s, const std::string& key);

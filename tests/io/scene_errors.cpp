@@ -15,6 +15,10 @@ struct Wrong {
   const char* hint;          ///< part of the rest of it: limit or suggestion
 };
 
+void PrintTo(const Wrong& w, std::ostream* out) {
+  *out << w.name;
+}
+
 const Wrong cases[] = {
     {"syntax", "time = \"2 ms\"", "time = 2 ms", "plate.toml:3", "not TOML", "quotes"},
     {"triple_bracket", "[[crack]]", "[[[crack]]]", "plate.toml:26", "not TOML", "toml.io"},
@@ -75,6 +79,8 @@ const Wrong cases[] = {
      "larger cells"},
     {"off_line", "position = \"0 mm\"", "position = \"0.2 mm\"", "plate.toml:18: symmetry.0", "not on a grid line",
      "\"0 mm\""},
+    {"beyond_plane", "position = \"0 mm\"", "position = \"10 mm\"", "plate.toml:14: body.0", "beyond a symmetry plane",
+     "x at least 10 mm"},
     {"outside_plane", "position = \"0 mm\"", "position = \"-5 mm\"", "plate.toml:18: symmetry.0", "not on a grid line",
      "up to 54 mm"},
     {"duplicate_material", "[[body]]",
@@ -133,6 +139,11 @@ TEST(BadSceneParts, EachIsRefused) {
   const Extra extras[] = {
       {"[[body]]\nname = \"plate\"\nmaterial = \"pmma\"\ndisk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" }\n",
        "same name", "each"},
+      {"[[body]]\nmaterial = \"pmma\"\ndisk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" }\n",
+       "in the same place", "a hole"},
+      {"[[body]]\nmaterial = \"pmma\"\ndisk = { center = [\"52 mm\", \"9 mm\"], radius = \"1 mm\" }\n"
+       "holes = [ { disk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" } } ]\n",
+       "outside its body", "mm"},
       {"[[fix]]\nbox = { lower = [\"0.1 mm\", \"0 mm\"], upper = [\"0.2 mm\", \"1 mm\"] }\nvelocity_x = \"0 m/s\"\n",
        "no grid node", "grid line"},
       {"[[load]]\nkind = \"force\"\nrectangle = { lower = [\"51 mm\", \"0 mm\"], upper = [\"52 mm\", \"9 mm\"] }\n"

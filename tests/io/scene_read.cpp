@@ -45,7 +45,7 @@ TEST(ReadScene, QuantitiesInSi) {
 }
 
 TEST(ReadScene, EveryPart) {
-  const Scene s = read(good_scene + R"toml(
+  const Scene s = read(changed("\"104 mm\"", "\"134 mm\"") + R"toml(
 [[material]]
 name = "rubber"
 law = "neo_hookean"
@@ -55,8 +55,8 @@ density = "1.5 g/cm^3"
 [[body]]
 name = "disk"
 material = "rubber"
-disk = { center = ["25 mm", "20 mm"], radius = "10 mm" }
-holes = [ { disk = { center = ["25 mm", "20 mm"], radius = "2 mm" } } ]
+disk = { center = ["25 mm", "120 mm"], radius = "10 mm" }
+holes = [ { disk = { center = ["25 mm", "120 mm"], radius = "2 mm" } } ]
 particles_per_cell = 3
 thickness = "6 mm"
 velocity = ["1000 mm/s", "-2 m/s"]
@@ -101,6 +101,7 @@ component = "xy"
 name = "pull_force"
 kind = "reaction"
 target = "top"
+over = "50 mm^2"
 [output]
 frames = 7
 history_every = "1 us"
@@ -146,6 +147,7 @@ energy_growth = 0.1
   EXPECT_EQ(s.probes[1].axis, 0);
   EXPECT_EQ(s.probes[1].axis2, 1);
   EXPECT_EQ(s.probes[2].axis, 1);
+  EXPECT_DOUBLE_EQ(s.probes[2].over, 5e-5);
   EXPECT_EQ(s.output.frames, 7);
   EXPECT_DOUBLE_EQ(s.output.history_every, 1e-6);
   EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
@@ -231,4 +233,15 @@ TEST(ReadScene, TextsAndCommentsMayGoBeyondAscii) {
   EXPECT_EQ(read(changed("title = \"plate\"", "title = \"\"\"Ri\u00df \\\n  \"\"\" # \u00b5m \"")).title, "Ri\u00df ");
   EXPECT_EQ(read(changed("title = \"plate\"", "title = 'a\u00b5\\' # \"")).title, "a\u00b5\\");
   EXPECT_DOUBLE_EQ(read(changed("cell = \"0.5 mm\"", "cell = \"500 \u00b5m\"")).cell, 5e-4);
+}
+
+TEST(ReadScene, ShippedScenesAreRight) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(RIVEN_SOURCE_DIR "/cases/scenes")) {
+    if (entry.path().extension() != ".toml")
+      continue;
+    EXPECT_NO_THROW(read_scene(entry.path().string())) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 0);
 }
