@@ -24,9 +24,6 @@ Vec2 unit(const std::int64_t* fixed) {
 void hold_cracks(CrackFields& fields, long f) {
   NodeCracks& node = fields.nodes[f];
   const int first = fields.candidate_start[f], last = fields.candidate_start[f + 1];
-  const int number = node.node;
-  node = NodeCracks{};
-  node.node = number;
   int most[2] = {-1, -1}, count[2] = {0, 0};
   for (int c = first; c < last; ++c) {
     const int n = fields.tally[2 * c] + fields.tally[2 * c + 1];
@@ -40,6 +37,11 @@ void hold_cracks(CrackFields& fields, long f) {
       count[1] = n;
     }
   }
+  if (most[0] < 0 && node.crack[0] < 0)
+    return;
+  const int number = node.node;
+  node = NodeCracks{};
+  node.node = number;
   if (most[0] < 0)
     return;
   if (most[1] >= 0 && most[1] < most[0])
@@ -115,6 +117,8 @@ BothWarnings set_fields(CrackFields& fields, RecordChunk chunk, const int* id, b
     const CrossingRecord& record = fields.records[r];
     if (r > chunk.begin && fields.records[r - 1].particle != record.particle)
       store(fields.records[r - 1].particle);
+    if (!record.weighs)
+      continue;
     const std::uint8_t verdict = fields.verdict[record.entry];
     if (verdict < other_side)
       word |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * record.neighbour);

@@ -37,22 +37,14 @@ struct SurfaceView {
 };
 SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields);
 
-/// v(s,i): the field of `node` for the surface `side` at crack point k, which is at x now; -1 if the node has no such
-/// field. `cell` is the cell of x by the shape function of the hash. The point's own crack is crossed where the node
-/// holds it and has crossings from this surface's side; another crack, where the line from x to the node crosses it
-/// from the side that the node holds. The field of a crack that the line crosses and the node does not hold is empty
-/// (there is no such field to find, though a particle may ignore a crack beyond the two held).
-inline RIVEN_FN int field_of_surface(const SurfaceView& view, int node, int k, Side side, Vec2 x, int cell) {
-  const int f = view.node_index[node];
-  if (f < 0)
-    return 0;
-  const NodeCracks& held = view.nodes[f];
+namespace detail {
+
+/// field_of_surface where several cracks, or parts of them that the node does not hold, are in sight.
+inline RIVEN_FN int trace_surface(const SurfaceView& view, const NodeCracks& held, int node, int k, Side side, Vec2 x,
+                                  int cell, int field, bool holds_own) {
   const Vec2 n = view.lattice.position(node);
   const int own = view.crack[k];
-  const bool holds_own = held.crack[0] == own || held.crack[1] == own;
-  const int c = view.cell_index[cell];
-  int field = holds_own && held.side[held.crack[1] == own] == side ? 1 << (held.crack[1] == own) : 0;
-  for (int s = c < 0 ? 0 : view.cell_start[c], end = c < 0 ? 0 : view.cell_start[c + 1]; s < end;) {
+  for (int s = view.cell_start[cell], end = view.cell_start[cell + 1]; s < end;) {
     const int crack = view.crack[view.cell_segment[s]], first = view.start[crack], last = view.start[crack + 1] - 1;
     const Vec2 from = crack == own ? view.plane[k] : x;
     CrossingSum sum;
@@ -78,6 +70,29 @@ inline RIVEN_FN int field_of_surface(const SurfaceView& view, int node, int k, S
     }
   }
   return field;
+}
+
+}  // namespace detail
+
+/// v(s,i): the field of `node` for the surface `side` at crack point k, which is at x now; -1 if the node has no such
+/// field. `cell` is the cell of x by the shape function of the hash. The point's own crack is crossed where the node
+/// holds it and has crossings from this surface's side; another crack, where the line from x to the node crosses it
+/// from the side that the node holds. The field of a crack that the line crosses and the node does not hold is empty
+/// (there is no such field to find, though a particle may ignore a crack beyond the two held).
+RIVEN_INLINE int field_of_surface(const SurfaceView& view, int node, int k, Side side, Vec2 x, int cell) {
+  const int f = view.node_index[node];
+  if (f < 0)
+    return 0;
+  const NodeCracks& held = view.nodes[f];
+  const int own = view.crack[k], c = view.cell_index[cell], m = held.crack[1] == own;
+  const bool holds_own = held.crack[m] == own;
+  const int field = holds_own && held.side[m] == side ? 1 << m : 0;
+  if (c < 0)
+    return field;
+  const int first = view.cell_segment[view.cell_start[c]], last = view.cell_segment[view.cell_start[c + 1] - 1];
+  if (holds_own && view.crack[first] == own && view.crack[last] == own)
+    return field;
+  return detail::trace_surface(view, held, node, k, side, x, c, field, holds_own);
 }
 
 }  // namespace riven

@@ -15,6 +15,7 @@ namespace {
 /// For lattice place (i, j) the box [i + lower, i + upper] x [j + lower, j + upper], in cells.
 struct Reach {
   double lower, upper;
+  int border;  ///< places this near to the edge of the lattice are left out
 };
 
 /// A CSR of the segments whose distance to the box of a place is within the margin.
@@ -29,8 +30,10 @@ struct Bins {
 template <class F>
 void each_place(Vec2 a, Vec2 b, Reach reach, const Lattice& lattice, const F& f) {
   const double lower = reach.lower - CrackFields::margin, upper = reach.upper + CrackFields::margin;
-  const auto first = [&](double x) { return std::max(0, static_cast<int>(std::ceil(x - upper))); };
-  const auto last = [&](double x, int n) { return std::min(n - 1, static_cast<int>(std::floor(x - lower))); };
+  const auto first = [&](double x) { return std::max(reach.border, static_cast<int>(std::ceil(x - upper))); };
+  const auto last = [&](double x, int n) {
+    return std::min(n - 1 - reach.border, static_cast<int>(std::floor(x - lower)));
+  };
   const int i0 = first(std::min(a.x, b.x)), i1 = last(std::max(a.x, b.x), lattice.nx);
   const int j0 = first(std::min(a.y, b.y)), j1 = last(std::max(a.y, b.y), lattice.ny);
   const Vec2 d = b - a;
@@ -148,7 +151,8 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   // paths lie between the cell's nodes; those that end at one node start at most one (linear) or one and a half cells
   // away from it along each axis
   constexpr bool wide = Shape::width == 3;
-  constexpr Reach cell = wide ? Reach{-1, 1} : Reach{0, 1}, node = wide ? Reach{-1.5, 1.5} : Reach{-1, 1};
+  constexpr Reach cell = wide ? Reach{-1, 1, 1} : Reach{0, 1, 1};
+  constexpr Reach node = wide ? Reach{-1.5, 1.5, 0} : Reach{-1, 1, 0};
   fill(space, lattice, cracks, cell, {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
   mark_tiles(lattice, fields);
   exec::Array<int> flagged, start, segment;
@@ -161,6 +165,7 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   fields.tally.zero();
   fields.tally_normal.zero();
   fields.hashed = cracks.plane;
+  ++fields.stamp;
 }
 
 template void hash_cracks<Linear>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);

@@ -1,8 +1,12 @@
-// Trace: every particle-node pair of a marked cell, with a non-zero shape function, against the cell's segments.
+// Trace: every particle-node pair of a marked cell against the cell's segments.
 //
 // A first test in single precision, over the nodes of one particle at a time, sorts out the segments that surely are
 // not crossed; what remains goes through the exact test (core/fracture/crossing.hpp). A pair that crosses a crack is
-// recorded, and the normals of the crossed segments are summed for its node, crack and side.
+// recorded, and the normals of the crossed segments are summed for its node, crack and side. Pairs in which the
+// particle has no weight on the node are kept, but count for nothing.
+//
+// What was found holds until the particle and the cracks have moved by more than the clearance that was measured with
+// it (kernels/clearance.hpp); until then the records are taken over. The outcome is the same as without.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/bodies.hpp"

@@ -23,9 +23,23 @@ struct NodeCracks {
 
 /// One particle-node pair that crosses one crack.
 struct CrossingRecord {
-  int particle;   ///< position in the particle arrays
-  int neighbour;  ///< which of its nodes, row by row from the lower left
-  int entry;      ///< 2 * (position in CrackFields::candidate) + (comes from below)
+  int particle;                 ///< position in the particle arrays
+  int entry;                    ///< 2 * (position in CrackFields::candidate) + (comes from below)
+  int segment;                  ///< the crossed segment (the last, if there are several)
+  std::uint16_t neighbour = 0;  ///< which of the particle's nodes, row by row from the lower left
+  std::uint16_t weighs = 0;     ///< the shape function is not zero there; else nothing follows from the crossing
+};
+
+/// What the last trace of a particle found, and for how long that holds.
+struct CrossingMemory {
+  int stamp = 0;  ///< CrackFields::stamp when it was last used: void unless at the trace before
+  int id = -1;    ///< of the particle, which may since have been sorted to another position
+  int cell = -1;  ///< of the particle
+  int first = 0;  ///< its records in CrackFields::records
+  int count = 0;
+  double clear = 0;   ///< m, sum of the moves of the particle and the cracks up to which they hold
+  double travel = 0;  ///< CrackFields::travel of that time
+  Vec2 x;             ///< the particle's position then
 };
 
 struct RecordChunk {
@@ -56,9 +70,13 @@ struct CrackFields {
   // trace: crossings, and their sums for each candidate and side. Sums are of integers, so that they do not depend on
   // the order of the particles.
   exec::Array<std::int64_t> segment_normal;  ///< [4 points] fixed-point unit normals of now and of the first position
-  exec::Array<CrossingRecord> records;
+  exec::Array<CrossingRecord> records, last_records;
   exec::Array<RecordChunk> chunks;  ///< parts of `records`, in the order in which they were finished
   long chunk_count = 0;
+  exec::Array<CrossingMemory> memory;      ///< [particles]
+  exec::Array<Vec2> traced;                ///< [points] crack points at the last trace
+  double travel = 0;                       ///< m, sum over the steps of the largest move of any crack point
+  int stamp = 1;                           ///< counts the traces, and one more for what voids all memories
   exec::Array<int> tally;                  ///< [2 candidates] crossings from above and from below
   exec::Array<std::int64_t> tally_normal;  ///< [4][2 candidates] sums of the segments' normals
 

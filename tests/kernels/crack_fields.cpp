@@ -253,7 +253,7 @@ TEST(CrackFields, DoNotDependOnOrderThreadsOrSpace) {
                             Where{exec::Kind::openmp, 4}, Where{exec::Kind::stdpar, 1}, Where{exec::Kind::stdpar, 2},
                             Where{exec::Kind::stdpar, 4}}) {
     const exec::Space serial, space(where.kind, where.threads);
-    for (int number = 0; number < 100; ++number) {
+    for (int number = 0; number < 36; ++number) {
       const Case c = random_case(number);
       const Cracks cracks = cracks_of(c);
       std::vector<int> ids = in_order(c.particles.size());
@@ -273,6 +273,58 @@ TEST(CrackFields, DoNotDependOnOrderThreadsOrSpace) {
         ASSERT_EQ(a.extra[n], b.extra[n]);
     }
   }
+}
+
+template <class Shape>
+void check_memory() {
+  // many small moves, some of them with particles sorted anew; fields found afresh must be the same bits
+  const Lattice l = unit_cells(cells, cells);
+  const exec::Space serial;
+  long remembered = 0, crossing = 0;
+  for (int number = 0; number < 150; ++number) {
+    const Case c = random_case(number);
+    Cracks cracks = cracks_of(c);
+    std::vector<Vec2> x = positions(c);
+    std::vector<int> ids = in_order(x.size());
+    std::mt19937 random(static_cast<unsigned>(number));
+    const double size = std::array{0.0003, 0.003, 0.03}[static_cast<size_t>(number % 3)];
+    std::uniform_real_distribution<double> any(-size, size);
+    CrackFields f;
+    for (int step = 0; step < 20; ++step) {
+      const auto p = sorted_particles<Shape>(l, x, ids);
+      run<Shape>(serial, l, p, cracks, f);
+      CrackFields fresh;
+      run<Shape>(serial, l, p, cracks, fresh);
+      ASSERT_EQ(words_by_id(p, f), words_by_id(p, fresh)) << number << ", step " << step;
+      for (const NodeCracks& n : f.nodes) {
+        if (n.crack[0] < 0)
+          continue;
+        const NodeCracks& m = fresh.nodes[fresh.node_index[n.node]];
+        for (int k = 0; k < 2; ++k)
+          ASSERT_TRUE(n.crack[k] == m.crack[k] && n.side[k] == m.side[k] && n.normal[k] == m.normal[k] &&
+                      n.normal0[k] == m.normal0[k]);
+      }
+      for (long i = 0; i < p.count(); ++i)
+        if (f.memory[i].stamp == f.stamp && f.memory[i].cell >= 0 && !(f.memory[i].x == Vec2{p.x[0][i], p.x[1][i]})) {
+          ++remembered;
+          crossing += f.memory[i].count > 0;
+        }
+      for (Vec2& at : x)
+        at += {any(random), any(random)};
+      for (Vec2& at : cracks.plane)
+        at += Vec2{any(random), any(random)} * 0.5;
+      if (step % 7 == 6)
+        std::shuffle(ids.begin(), ids.end(), random);
+    }
+  }
+  EXPECT_GT(remembered, 20000);
+  EXPECT_GT(crossing, 2000);
+}
+
+TEST(CrackFields, RememberedAreThoseFoundAfresh) {
+  check_memory<Linear>();
+  check_memory<UGimp>();
+  check_memory<BSpline>();
 }
 
 TEST(CrackFields, AreClearedWhenParticlesMoveAway) {

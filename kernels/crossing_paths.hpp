@@ -1,0 +1,99 @@
+// The paths from one particle to its nodes, and a first test that sorts out the segments which surely cross none.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/math/vec.hpp"
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+/// Single-precision lanes, one for each node. Compilers do not turn a loop with these blends into vectors by
+/// themselves.
+typedef float Floats __attribute__((vector_size(32)));
+typedef int Masks __attribute__((vector_size(32)));
+inline constexpr int float_lanes = 8;
+
+/// A list of segments, by their first points, ascending.
+struct SegmentList {
+  const int* segment;
+  int count;
+};
+
+template <class Shape>
+struct Paths {
+  static constexpr int N = Shape::width;
+  static constexpr int nodes = N * N;
+  static constexpr int batch = 32;  ///< segments that the first test takes at once: one bit each
+  static constexpr int groups = (nodes + float_lanes - 1) / float_lanes;
+
+  Vec2 particle;
+  int i, j;           ///< first node
+  Floats dx[groups];  ///< from the particle to the nodes, in cells; lanes past the last node repeat it
+  Floats dy[groups];
+
+  Paths(Vec2 p, int i0, int j0, const Lattice& lattice, double inv_h) : particle(p), i(i0), j(j0) {
+    float x[N], y[N];
+    for (int a = 0; a < N; ++a) {
+      const Vec2 node = lattice.position(i + a, j + a);
+      x[a] = static_cast<float>((node.x - p.x) * inv_h);
+      y[a] = static_cast<float>((node.y - p.y) * inv_h);
+    }
+    for (int k = 0; k < groups * float_lanes; ++k) {
+      dx[k / float_lanes][k % float_lanes] = x[std::min(k, nodes - 1) % N];
+      dy[k / float_lanes][k % float_lanes] = y[std::min(k, nodes - 1) / N];
+    }
+  }
+
+  /// For each node, a bit for every segment (of at most `batch`) that may be crossed. With the corners of the
+  /// signed areas relative to the particle, (12a) = d x a, (12b) = d x b, (ab1) = a x b, (ab2) = (ab1) + (12a) - (12b).
+  /// Returns whether there is any.
+  bool may_cross(SegmentList list, const Vec2* point, double inv_h, Masks* bits) const {
+    constexpr float reach = 2.f;  // bounds |dx| and |dy|, in cells
+    Floats area_a[groups];
+    for (int g = 0; g < groups; ++g) {
+      bits[g] = Masks{};
+      area_a[g] = Floats{};
+    }
+    int next = -1;
+    float ax = 0, ay = 0;
+    const auto relative = [&](int p, float& x, float& y) {
+      x = static_cast<float>((point[p].x - particle.x) * inv_h);
+      y = static_cast<float>((point[p].y - particle.y) * inv_h);
+    };
+    for (int s = 0; s < list.count; ++s) {
+      const int segment = list.segment[s];
+      if (segment != next) {
+        relative(segment, ax, ay);
+        for (int g = 0; g < groups; ++g)
+          area_a[g] = dx[g] * ay - dy[g] * ax;
+      }
+      next = segment + 1;
+      float bx, by;
+      relative(next, bx, by);
+      const float from = ax * by - ay * bx;
+      const float size = reach * (std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by)) + std::fabs(ax * by) +
+                         std::fabs(ay * bx);
+      const float rounding = 1e-6f * size;  // > 8 float roundings of every area below
+      const float far = rounding * size;    // beats the product of two areas unless both are beyond rounding
+      const float sign_from = std::copysign(std::fabs(from) > rounding ? 1.f : 0.f, from);
+      for (int g = 0; g < groups; ++g) {
+        const Floats a = area_a[g], b = dx[g] * by - dy[g] * bx, to = from + (a - b);
+        const Masks surely_not = (a * b > far) | (sign_from * to > rounding);
+        bits[g] |= ~surely_not & static_cast<int>(1u << s);
+        area_a[g] = b;
+      }
+      ax = bx;
+      ay = by;
+    }
+    Masks any{};
+    for (int g = 0; g < groups; ++g)
+      any |= bits[g];
+    for (int k = 1; k < float_lanes; ++k)
+      any[0] |= any[k];
+    return any[0] != 0;
+  }
+};
+
+}  // namespace riven
