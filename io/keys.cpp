@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/error.hpp"
-#include "io/expression.hpp"
+#include "io/toml_text.hpp"
 
 namespace riven {
 
@@ -24,14 +23,6 @@ std::string place_of(const toml::node& node) {
   if (s.path->starts_with("--set "))
     return *s.path;
   return s.begin.line == 0 ? *s.path : fmt::format("{}:{}", *s.path, s.begin.line);
-}
-
-std::string value_text(const toml::node& node) {
-  if (node.is_floating_point())
-    return fmt::format("{}", *node.value<double>());
-  std::ostringstream out;
-  node.visit([&](const auto& n) { out << n; });
-  return shown(out.str());
 }
 
 const char* type_text(const toml::node& node) {
@@ -97,8 +88,8 @@ std::string Table::where(const char* key) const {
 
 void Table::refuse(const char* key, std::string what, std::string limit, std::string hint) const {
   const toml::node* node = key ? find(key) : nullptr;
-  fail(
-      {Exit::bad_input, std::move(what), where(key), node ? value_text(*node) : "", std::move(limit), std::move(hint)});
+  fail({Exit::bad_input, std::move(what), where(key), node ? shown(toml_value(*node)) : "", std::move(limit),
+        std::move(hint)});
 }
 
 void Table::wrong_type(const toml::node& node, const char* key, const char* expected) const {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "io/suggest.hpp"
+#include "io/toml_text.hpp"
 
 namespace riven {
 
@@ -37,9 +37,7 @@ toml::table value_of(const std::string& text, const std::string& source) {
   toml::table document;
   if (parse_value(text, source, document))
     return document;
-  std::ostringstream quoted;
-  quoted << toml::value<std::string>{text};
-  if (!parse_value(quoted.str(), source, document))
+  if (!parse_value(toml_value(toml::value<std::string>{text}), source, document))
     fail({Exit::bad_input, "the value is not text", shown(source), shown(text), "TOML, or text in UTF-8", ""});
   return document;
 }

@@ -1,13 +1,13 @@
 #include "io/read_scene.hpp"
 
 #include <filesystem>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "io/check_scene.hpp"
 #include "io/overrides.hpp"
 #include "io/scene_reader.hpp"
 #include "io/text_file.hpp"
+#include "io/toml_text.hpp"
 
 namespace riven {
 
@@ -17,13 +17,7 @@ Scene parse_scene(std::string_view text, std::string name, const std::vector<std
   Scene s;
   s.name = std::filesystem::path(name).stem().string();
   s.source_path = std::move(name);
-  if (overrides.empty()) {
-    s.source_text = text;
-  } else {
-    std::ostringstream out;
-    out << document << '\n';
-    s.source_text = out.str();
-  }
+  s.source_text = overrides.empty() ? std::string(text) : toml_text(document);
   const Table root(document, s,
                    {"title", "solver", "grid", "material", "body", "fix", "symmetry", "grip", "load", "body_force",
                     "damping", "crack", "contact", "cracks", "probe", "output", "limits"});

@@ -2,6 +2,7 @@
 // "--set " become settings; text that starts with "csv" and a line end is read as a crack file instead.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,21 @@
 #include "io/crack_file.hpp"
 #include "io/read_scene.hpp"
 #include "io/units.hpp"
+
+namespace {
+
+/// The source text, settings applied, must read back as the same scene.
+void check_source(const riven::Scene& scene) {
+  try {
+    const riven::Scene again = riven::parse_scene(scene.source_text, scene.source_path);
+    if (again.defaults != scene.defaults || again.cell != scene.cell || again.title != scene.title)
+      std::abort();
+  } catch (const riven::Error&) {
+    std::abort();
+  }
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::string_view input(reinterpret_cast<const char*>(data), size);
@@ -35,7 +51,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       else
         text.append(line).append("\n");
     }
-    riven::check_scene(riven::parse_scene(text, "fuzz.toml", overrides));
+    const riven::Scene scene = riven::parse_scene(text, "fuzz.toml", overrides);
+    check_source(scene);
+    riven::check_scene(scene);
   } catch (const riven::Error&) {
     return 0;
   }

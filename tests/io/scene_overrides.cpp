@@ -1,3 +1,4 @@
+#include "io/toml_text.hpp"
 #include "tests/io/scene_text.hpp"
 
 using namespace riven;
@@ -24,6 +25,26 @@ TEST(Overrides, SourceTextHoldsThem) {
   EXPECT_EQ(again.cfl, s.cfl);
   EXPECT_EQ(again.cell, s.cell);
   EXPECT_EQ(again.cracks[0].points[1].x, s.cracks[0].points[1].x);
+}
+
+TEST(TomlText, ReadsBackAsTheSameDocument) {
+  const toml::table document = parse_toml(R"toml(
+a = -9223372036854775808
+b = [1e-300, -inf, 3.0, 1e300, -0.0, 0.1, 1e22]
+"odd key \n\"" = 'quote " back \ tab	'
+c = { d = [{ e = [] }, 1], "" = {} }
+when = 1979-05-27T07:32:00.999-07:00
+day = 1979-05-27
+[solver]
+s = "µ \u0000 \u007f"
+[[body]]
+[[body]]
+x = true
+)toml",
+                                          "a.toml");
+  const toml::table again = parse_toml(toml_text(document), "b.toml");
+  EXPECT_EQ(document, again) << toml_text(document);
+  EXPECT_EQ(toml_value(*again.get("c")), "{ \"\" = {  }, d = [{ e = [] }, 1] }");
 }
 
 TEST(Overrides, UnknownPathIsRefusedWithTheNearest) {
