@@ -9,7 +9,7 @@
 namespace riven {
 
 ContactReport& ContactReport::operator+=(const ContactReport& o) {
-  kinetic += o.kinetic;
+  work += o.work;
   interface_work += o.interface_work;
   touching += o.touching;
   apart += o.apart;
@@ -22,30 +22,34 @@ ContactReport& ContactReport::operator+=(const ContactReport& o) {
 
 namespace {
 
-/// Motion of slots as each stage keeps it.
+/// Motion of slots as each stage keeps it, in groups of four.
 template <class Real, ContactStage stage>
 struct Motion {
   static constexpr bool momentum = stage == ContactStage::before || stage == ContactStage::again;
   static constexpr bool acceleration = stage == ContactStage::after;
-  static constexpr int stride = stage == ContactStage::before || stage == ContactStage::after ? 4 : 2;
 
   const Real* mass;
   Real* data;
 
-  explicit Motion(Grid<Real>& grid) : mass(grid.mass.data()) {
-    data = stride == 4 ? grid.q.data() : stage == ContactStage::again ? grid.again.data() : grid.high.data();
+  explicit Motion(Grid<Real>& grid) : mass(grid.mass.data()), data(grid.q.data()) {
+    if (stage == ContactStage::again)
+      data = grid.again.data();
+    if (stage == ContactStage::higher)
+      data = grid.high.data();
   }
   RIVEN_INLINE Vec2 momentum_of(long slot) const {
-    const Real* d = data + stride * slot;
+    const Real* d = data + 4 * slot;
     return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
   }
-  /// Velocity before the step's forces.
+  /// Velocity before the forces and the impulses whose work is asked for: in the stage `after` those of the whole step.
   RIVEN_INLINE Vec2 first_velocity(long slot, double dt) const {
-    const Real* d = data + stride * slot;
-    return {d[0] - dt * d[2], d[1] - dt * d[3]};
+    const Real* d = data + 4 * slot;
+    if constexpr (acceleration)
+      return {d[0] - dt * d[2], d[1] - dt * d[3]};
+    return momentum_of(slot) * (1 / double(mass[slot]));
   }
   RIVEN_INLINE void change(long slot, Vec2 impulse, Vec2 velocity, double dt) const {
-    Real* d = data + stride * slot;
+    Real* d = data + 4 * slot;
     if constexpr (momentum) {
       d[0] = Real(d[0] + impulse.x);
       d[1] = Real(d[1] + impulse.y);
@@ -190,9 +194,7 @@ struct NodeContact {
   /// Work of one pair on its fields: its impulse times the mean of the velocities before and after.
   RIVEN_INLINE double work(const ContactOutcome& out, int k) const {
     const Vec2 n = pair[k].normal, impulse = out.lambda[k] * n + out.tau[k] * turned(n);
-    const auto mean = [&](int f) {
-      return 0.5 * (node.group_momentum(f) * (1 / node.group_mass(f)) + out.velocity[f]);
-    };
+    const auto mean = [&](int f) { return 0.5 * (first_velocity(f) + out.velocity[f]); };
     return dot(impulse, mean(pair[k].below) - mean(pair[k].above));
   }
 
@@ -243,7 +245,7 @@ struct NodeContact {
     for (int f = 0; f < ContactNode::fields; ++f) {
       if (!out.changed[f])
         continue;
-      report.kinetic += 0.5 * dot(out.impulse[f], node.momentum[f] * (1 / node.mass[f]) + out.velocity[f]);
+      report.work += 0.5 * dot(out.impulse[f], motion.first_velocity(slot[f], dt) + out.velocity[f]);
       motion.change(slot[f], out.impulse[f], out.velocity[f], dt);
     }
   }

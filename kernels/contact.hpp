@@ -21,7 +21,9 @@
 // the accelerations by dv/dt, so that bonded fields move their particles as one field would (the CRAMP paper's section
 // on contact). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the stage
 // `after`, where v - a dt is the velocity before the forces and a all other forces; adding F = impulse/dt to the forces
-// would give the same v and a. In the other stages an interface only keeps together what it is too stiff to let go.
+// would give the same v and a. The work of the impulses is taken with the mean of the velocities before and after, in
+// `after` with the velocity before the forces: a force that contact only balances moves nothing and contact takes no
+// energy. In the other stages an interface only keeps together what it is too stiff to let go.
 #pragma once
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"
@@ -35,14 +37,14 @@ namespace riven {
 enum class ContactStage {
   before,  ///< Grid::q holds [px py . .]: p changes
   after,   ///< Grid::q holds [vx vy ax ay]: v and a change
-  again,   ///< Grid::again holds [px py]
-  higher   ///< Grid::high holds [vx vy]
+  again,   ///< Grid::again holds [px py . .]: p changes
+  higher   ///< Grid::high holds [vx vy . .]: v changes
 };
 
 /// What contact did, summed over nodes in a fixed order.
 struct ContactReport {
-  double kinetic = 0;         ///< J, change of the fields' kinetic energy (negative: taken by contact)
-  double interface_work = 0;  ///< J, part of it that interface tractions did (stored or given back)
+  double work = 0;            ///< J, of the impulses on the fields (negative: taken by contact)
+  double interface_work = 0;  ///< J, the part of it that interface tractions did (stored or given back)
   long touching = 0;          ///< pairs of fields that pushed or held each other
   long apart = 0;             ///< pairs whose faces may part and did not touch
   long early = 0;             ///< nodes that touched although V_rel < V_sep (where volumes were summed)

@@ -9,7 +9,7 @@ void stage(Simulation& m, ContactStage at, ContactReport& report, double reaches
   ContactReport now;
   contact(m.space, m.state.grid, m.state.fields, m.state.cracks, m.scene.contact_rules, at, m.state.clock.dt,
           m.contact_sums, now);
-  m.state.ledger.energy.contact -= reaches_particles * now.kinetic;
+  m.state.ledger.energy.contact -= reaches_particles * now.work;
   report += now;
 }
 
