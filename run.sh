@@ -45,7 +45,8 @@ say "Drawing"
 file=$scene
 [ -f "$file" ] || file=cases/scenes/$scene.toml
 pictures=$(sed -n 's/^# draw: *//p' "$file")
+script=$PWD/io/python/riven_picture.py
 while read -r -a picture; do
-  "$python" io/python/riven_picture.py "$out" "${picture[@]}"
+  (cd "$out" && "$python" "$script" . "${picture[@]}")
 done <<<"$pictures"
 say "Results are in $out"
