@@ -130,9 +130,9 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
 
 /// The same for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`, `grid_q`.
 template <bool Mass, class Real, class Shape>
-RIVEN_INLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
-                                 const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
-                                 std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
+RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
+                                  const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
+                                  std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
   constexpr int N = Shape::width;
   for (int j = 0; j < N; ++j) {
     const Quad<Real> row = w.sy[j][k] * A + w.gy[j][k] * C, across = w.sy[j][k] * B;
@@ -189,8 +189,8 @@ RIVEN_INLINE Gathered<Real> gather(const Block<Real, Shape>& w, int k, const Rea
 
 /// The same for a particle that sees some nodes across cracks.
 template <bool Gradient, class Real, class Shape>
-RIVEN_INLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, const Real* q, std::uint32_t word,
-                                          const ExtraSlots<Real>& extra) {
+RIVEN_OUTLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, const Real* q, std::uint32_t word,
+                                           const ExtraSlots<Real>& extra) {
   constexpr int N = Shape::width;
   Gathered<Real> out{};
   for (int j = 0; j < N; ++j) {

@@ -6,10 +6,12 @@
 #define RIVEN_FN __host__ __device__
 #define RIVEN_INLINE __host__ __device__ __forceinline__
 #define RIVEN_LAMBDA __host__ __device__
+#define RIVEN_OUTLINE __host__ __device__ inline
 #else
 #define RIVEN_FN
 #define RIVEN_INLINE __attribute__((always_inline)) inline
 #define RIVEN_LAMBDA
+#define RIVEN_OUTLINE __attribute__((noinline)) inline  // rare paths, kept out of the loops that matter
 #endif
 
 #define RIVEN_PRAGMA(x) _Pragma(#x)
