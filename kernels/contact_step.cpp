@@ -1,5 +1,7 @@
 #include "kernels/contact_step.hpp"
 
+#include "kernels/interface_jumps.hpp"
+
 namespace riven {
 
 namespace {
@@ -27,6 +29,9 @@ void contact_before_update(Simulation& m) {
 }
 void contact_after_update(Simulation& m) {
   stage(m, ContactStage::after, m.contact_after, 1);
+  if (m.plan.contact_area)
+    advance_jumps(m.space, m.plan.shape, m.state.domains, m.state.grid, m.state.fields, m.state.clock.dt,
+                  m.state.cracks);
 }
 void contact_on_high(Simulation& m) {
   stage(m, ContactStage::higher, m.contact_after, 1);

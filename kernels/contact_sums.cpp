@@ -4,6 +4,7 @@
 #include "core/math/shape.hpp"
 #include "kernels/block.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/interface_segments.hpp"
 
 namespace riven {
 
@@ -95,37 +96,21 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
   }
 }
 
-/// Crack by crack: no two cracks share an entry, and the segments of one are taken in order.
 template <class Shape>
 void sum_segments(const exec::Space& space, const DomainSetting<double, 2>& domain, const Lattice& lattice,
                   const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
-  const NodeCracks* nodes = fields.nodes.data();
-  const int *node_index = fields.node_index.data(), *start = cracks.start.data();
-  const Vec2 *plane = cracks.plane.data(), *upper = cracks.upper.data(), *lower = cracks.lower.data();
-  const ContactSettings* law = cracks.contact.data();
-  const double inv_h = 1 / lattice.h;
+  const InterfaceSegments<Shape> segments(domain, lattice, fields, cracks);
+  const exec::View<const Vec2> jump = cracks.jump.view();  // shorter or empty before the first step
   exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
-    if (law[c].law != ContactLaw::interface)
-      return;
-    for (int p = start[c]; p + 1 < start[c + 1]; ++p) {
-      const Vec2 at = (0.5 * inv_h) * (plane[p] + plane[p + 1] - 2 * lattice.origin);
-      const auto a = Shape::axis(at.x, domain.axis[0]);
-      const auto b = Shape::axis(at.y, domain.axis[1]);
-      const double area = thickness * norm(plane[p + 1] - plane[p]);
-      const Vec2 opening = 0.5 * (lower[p] + lower[p + 1] - upper[p] - upper[p + 1]);
-      for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-        const int x = a.base + k % Shape::width, y = b.base + k / Shape::width;
-        if (x < 0 || y < 0 || x >= lattice.nx || y >= lattice.ny)
-          continue;
-        const int i = node_index[y * lattice.nx + x];
-        if (i < 0 || (nodes[i].crack[0] != c && nodes[i].crack[1] != c))
-          continue;
-        ContactArea& to = out[2L * i + (nodes[i].crack[0] == c ? 0 : 1)];
-        const double part = area * a.s[k % Shape::width] * b.s[k / Shape::width];
-        to.area += part;
-        to.opening += part * opening;
-      }
-    }
+    segments.each(c, [&](int p, const SegmentFrame& s, auto&& nodes) {
+      const double area = thickness * s.length;
+      const Vec2 local = p < jump.size ? jump[p] : Vec2{}, opening = local.x * s.normal + local.y * s.along;
+      nodes([&](int i, int k, double S) {
+        ContactArea& to = out[2L * i + k];
+        to.area += area * S;
+        to.opening += (area * S) * opening;
+      });
+    });
   });
   exec::parallel_for(space, "contact areas", 2 * fields.nodes.size(), [=](long i) {
     if (out[i].area > 0)
@@ -154,12 +139,7 @@ void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSu
       sum_particles<Shape>(space, choice, particles, domains, specific_area, lattice, fields, sums.field.data());
     if (sums.area.empty())
       return;
-    DomainSetting<double, 2> domain;  // of a crack point: that of the first body's particles
-    for (int d = 0; d < 2; ++d) {
-      const AxisSetting<Real>& a = domains[0].axis[d];
-      domain.axis[d] = {double(a.half), double(a.inv_4half), a.wall_lower, a.wall_upper};
-    }
-    sum_segments<Shape>(space, domain, lattice, fields, cracks, thickness, sums.area.data());
+    sum_segments<Shape>(space, crack_point_domain(domains[0]), lattice, fields, cracks, thickness, sums.area.data());
   });
 }
 

@@ -5,9 +5,9 @@
 // (A: J.A. Nairn, CMES 4 (2003), eqs. 8, 9 and 27; positions: J.A. Nairn, CMES 92 (2013) 271-299, who extrapolates
 // displacements; the pair of positions stays exact when the body turns), and per crack the length times thickness and
 // the opening that belong to the node,
-//   A_i = sum_s t L_s S_i(x_s),    A_i opening_i = sum_s t L_s S_i(x_s) (lower_s - upper_s)
+//   A_i = sum_s t L_s S_i(x_s),    A_i opening_i = sum_s t L_s S_i(x_s) jump_s
 // over the crack's segments s with midpoints x_s. The areas add up to the crack's except at a tip, where nodes ahead
-// see no crossing; the opening is that of the tracked surfaces, which no strain of the bulk enters.
+// see no crossing. For the jump see interface_jumps.hpp.
 //
 // Only nodes that a crack passes, and particles in marked tiles, take part. Tiles go colour by colour, each node in
 // the order of its particles: the same bits on any number of threads.
@@ -35,7 +35,7 @@ struct ContactField {
 /// The part of a crack that belongs to a node.
 struct ContactArea {
   double area = 0;  ///< m^2
-  Vec2 opening;     ///< m, lower surface minus upper surface
+  Vec2 opening;     ///< m, displacement of the lower face minus that of the upper one
 };
 
 struct ContactSums {

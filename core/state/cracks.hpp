@@ -22,6 +22,9 @@ struct Cracks {
   exec::Array<Vec2> upper_velocity, lower_velocity;  ///< [points] XPIC(1) only
   bool velocities_known = false;                     ///< set by the first move; until then surfaces start with the grid
   exec::Array<Vec2> plane0;                          ///< [points] where the plane was when the point was made
+  /// [points] of the segment that starts at a point: jump of displacement across an imperfect interface, along the
+  /// segment's normal and along the segment, m (contact law `interface` only)
+  exec::Array<Vec2> jump;
 
   int count() const { return static_cast<int>(names.size()); }
   int points() const { return start.back(); }

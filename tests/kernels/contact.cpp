@@ -154,8 +154,9 @@ TEST(ContactSums, AreasOfNodesAddUpToTheCracksAndCarryItsOpening) {
   // an interior stretch of the crack: nodes well inside of the body see the whole of it
   Setting s = make_setting({level}, stay, stay, ContactLaw::interface);
   const Vec2 opening{0.01, -0.03};
-  for (int p = 0; p < s.cracks.points(); ++p)
-    s.cracks.lower[p] += opening;
+  s.cracks.jump.resize(s.cracks.points());
+  for (Vec2& j : s.cracks.jump)
+    j = {-opening.y, opening.x};  // the normal is (0, -1), the segment along (1, 0)
   sum(s, exec::Space());
   for (int i = 8; i <= 16; ++i) {
     double column = 0;  // a column of nodes owns the crack over one cell
