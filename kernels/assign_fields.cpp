@@ -159,18 +159,6 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
   }
 }
 
-SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
-  return {lattice,
-          fields.cell_index.data(),
-          fields.cell_start.data(),
-          fields.cell_segment.data(),
-          fields.node_index.data(),
-          fields.nodes.data(),
-          cracks.crack.data(),
-          cracks.start.data(),
-          cracks.plane.data()};
-}
-
 #define RIVEN_DETERMINE(Shape, Real)                                                                        \
   template void determine_fields<Shape, Real>(const exec::Space&, const Particles<Real, 2>&,                \
                                               const DomainSetting<Real, 2>*, const Lattice&, const Cracks&, \

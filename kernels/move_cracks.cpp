@@ -6,7 +6,7 @@
 
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
-#include "kernels/assign_fields.hpp"
+#include "kernels/surface_field.hpp"
 
 namespace riven {
 
@@ -31,17 +31,14 @@ struct Extrapolation {
   const Grid<Real>& grid;
   const CrackFields& fields;
   SurfaceView view;
+  double inv_h;
 
-  /// add(node, weight) for the nodes that a point sees.
+  /// add(node, weight) for the nodes that a point sees; X is its position in cells.
   template <class Add>
-  void each_node(Vec2 x, const Add& add) const {
+  void each_node(Vec2 X, const Add& add) const {
     const Lattice& l = grid.lattice;
-    const Vec2 X = (x - l.origin) * (1 / l.h);
-    AxisSetting<double> along_x, along_y;
-    along_x.wall_lower = l.wall_lower[0];
-    along_x.wall_upper = l.wall_upper[0];
-    along_y.wall_lower = l.wall_lower[1];
-    along_y.wall_upper = l.wall_upper[1];
+    const AxisSetting<double> along_x{0, 0, l.wall_lower[0], l.wall_upper[0]};
+    const AxisSetting<double> along_y{0, 0, l.wall_lower[1], l.wall_upper[1]};
     const auto ax = Ordinary::axis(X.x, along_x);
     const auto ay = Ordinary::axis(X.y, along_y);
     for (int j = 0; j < Ordinary::width; ++j)
@@ -54,6 +51,7 @@ struct Extrapolation {
           add(ny * l.nx + nx, weight);
       }
   }
+  Vec2 in_cells(Vec2 x) const { return (x - grid.lattice.origin) * inv_h; }
 
   /// Adds the slot, weighted with its mass.
   void add(Motion& m, int slot, double weight) const {
@@ -78,13 +76,14 @@ struct Extrapolation {
 
   Motion of_surface(Vec2 x, int point, Side side) const {
     const Lattice& l = grid.lattice;
-    const Vec2 X = (x - l.origin) * (1 / l.h);
+    const Vec2 X = in_cells(x);
     const int i = Shape::cell(X.x), j = Shape::cell(X.y);
     Motion m;
     if (i < 0 || j < 0 || i >= l.nx || j >= l.ny)
       return m;
-    each_node(x, [&](int node, double weight) {
-      const int field = field_of_surface(view, node, point, side, x, j * l.nx + i);
+    const SurfacePoint s = surface_point(view, point, side, x, j * l.nx + i);
+    each_node(X, [&](int node, double weight) {
+      const int field = field_of_surface(view, s, node);
       if (field >= 0)
         add(m, slot(node, field), weight);
     });
@@ -93,7 +92,7 @@ struct Extrapolation {
 
   Motion of_all_fields(Vec2 x) const {
     Motion m;
-    each_node(x, [&](int node, double weight) {
+    each_node(in_cells(x), [&](int node, double weight) {
       add(m, node, weight);
       const int f = fields.node_index[node];
       if (f < 0)
@@ -134,7 +133,7 @@ long nearest_known(const std::vector<Moves>& moves, const Cracks& cracks, long k
 template <class Shape, class Real>
 void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
                  double dt, Cracks& cracks) {
-  const Extrapolation<Shape, Real> from{grid, fields, surface_view(grid.lattice, cracks, fields)};
+  const Extrapolation<Shape, Real> from{grid, fields, surface_view(grid.lattice, cracks, fields), 1 / grid.lattice.h};
   const bool xpic = rules.update == SurfaceUpdate::xpic;
   std::vector<Moves> moves(static_cast<size_t>(cracks.points()));
   exec::parallel_tasks(space, "move cracks", cracks.points(), [&](long k) {
