@@ -25,6 +25,7 @@ std::string read_name(const Table& t, const std::string& kind, size_t index);
 template <class Part>
 std::vector<std::string> names_of(const std::vector<Part>& parts) {
   std::vector<std::string> names;
+  names.reserve(parts.size());
   for (const Part& p : parts)
     names.push_back(p.name);
   return names;

@@ -173,7 +173,7 @@ std::optional<std::string> squared(std::string_view u) {
     size_t n = 0;
     while (n < u.size() && letter(u[n]))
       ++n;
-    const std::string s(u.substr(0, n));
+    std::string s(u.substr(0, n));
     u.remove_prefix(n);
     return s;
   };
