@@ -52,6 +52,8 @@ const Wrong cases[] = {
     {"E_infinite", "2500 MPa", "inf MPa", "plate.toml:11: material.0.E", "not finite", "stress"},
     {"zero_cell", "\"0.5 mm\"", "\"0 mm\"", "plate.toml:6: grid.cell", "out of range", "greater than 0"},
     {"cfl_zero", "plane =", "cfl = 0\nplane =", "plate.toml:4: solver.cfl", "out of range", "at most 2"},
+    {"cfl_tiny", "plane =", "cfl = -1e-300\nplane =", "plate.toml:4: solver.cfl", "out of range", "greater than 0"},
+    {"cfl_list", "plane =", "cfl = [1e-300, -inf]\nplane =", "plate.toml:4: solver.cfl", "found an array", "a number"},
     {"nine_per_cell", "material = \"pmma\"", "particles_per_cell = 9\nmaterial = \"pmma\"",
      "plate.toml:16: body.0.particles_per_cell", "out of range", "from 1 to 8"},
     {"half_per_cell", "material = \"pmma\"", "particles_per_cell = 1.5\nmaterial = \"pmma\"",
