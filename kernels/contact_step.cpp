@@ -20,8 +20,8 @@ void stage(Simulation& m, ContactStage at, ContactReport& report, double reaches
 void sum_for_contact(Simulation& m) {
   const Plan& p = m.plan;
   contact_sums(m.space, p.shape, {p.contact_volume, p.contact_position, p.contact_area}, m.state.particles,
-               m.state.domains, m.state.specific_area, m.state.grid.lattice, m.state.fields, m.state.cracks,
-               m.scene.thickness, m.contact_sums);
+               m.state.domains, m.state.specific_area, m.state.grid, m.state.fields, m.state.cracks, m.scene.thickness,
+               m.contact_sums);
 }
 
 void contact_before_update(Simulation& m) {

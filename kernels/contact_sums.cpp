@@ -96,19 +96,19 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
   }
 }
 
-template <class Shape>
-void sum_segments(const exec::Space& space, const DomainSetting<double, 2>& domain, const Lattice& lattice,
+template <class Shape, class Real>
+void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& grid,
                   const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
-  const InterfaceSegments<Shape> segments(domain, lattice, fields, cracks);
+  const InterfaceSegments<Shape, Real> segments(domains, grid, fields, cracks);
   const exec::View<const Vec2> jump = cracks.jump.view();  // shorter or empty before the first step
   exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
     segments.each(c, [&](int p, const SegmentFrame& s, auto&& nodes) {
       const double area = thickness * s.length;
       const Vec2 local = p < jump.size ? jump[p] : Vec2{}, opening = local.x * s.normal + local.y * s.along;
-      nodes([&](int i, int k, double S) {
+      nodes([&](int i, int k, double weight) {
         ContactArea& to = out[2L * i + k];
-        to.area += area * S;
-        to.opening += (area * S) * opening;
+        to.area += area * weight;
+        to.opening += (area * weight) * opening;
       });
     });
   });
@@ -123,7 +123,7 @@ void sum_segments(const exec::Space& space, const DomainSetting<double, 2>& doma
 template <class Real>
 void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSumsChoice& choice,
                   const Particles<Real, 2>& particles, const exec::Array<DomainSetting<Real, 2>>& domains,
-                  const exec::Array<double>& specific_area, const Lattice& lattice, const CrackFields& fields,
+                  const exec::Array<double>& specific_area, const Grid<Real>& grid, const CrackFields& fields,
                   const Cracks& cracks, double thickness, ContactSums& sums) {
   if ((choice.volume && particles.J.empty() && particles.F[0].empty()) ||
       (choice.position && particles.x0[0].empty()) || (choice.volume && specific_area.size() != domains.size()))
@@ -136,18 +136,18 @@ void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSu
   with_shape(shape, [&](auto type) {
     using Shape = typename decltype(type)::type;
     if (!sums.field.empty())
-      sum_particles<Shape>(space, choice, particles, domains, specific_area, lattice, fields, sums.field.data());
+      sum_particles<Shape>(space, choice, particles, domains, specific_area, grid.lattice, fields, sums.field.data());
     if (sums.area.empty())
       return;
-    sum_segments<Shape>(space, crack_point_domain(domains[0]), lattice, fields, cracks, thickness, sums.area.data());
+    sum_segments<Shape>(space, domains, grid, fields, cracks, thickness, sums.area.data());
   });
 }
 
 template void contact_sums(const exec::Space&, ShapeFunction, const ContactSumsChoice&, const Particles<float, 2>&,
-                           const exec::Array<DomainSetting<float, 2>>&, const exec::Array<double>&, const Lattice&,
+                           const exec::Array<DomainSetting<float, 2>>&, const exec::Array<double>&, const Grid<float>&,
                            const CrackFields&, const Cracks&, double, ContactSums&);
 template void contact_sums(const exec::Space&, ShapeFunction, const ContactSumsChoice&, const Particles<double, 2>&,
-                           const exec::Array<DomainSetting<double, 2>>&, const exec::Array<double>&, const Lattice&,
-                           const CrackFields&, const Cracks&, double, ContactSums&);
+                           const exec::Array<DomainSetting<double, 2>>&, const exec::Array<double>&,
+                           const Grid<double>&, const CrackFields&, const Cracks&, double, ContactSums&);
 
 }  // namespace riven

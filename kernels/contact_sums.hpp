@@ -5,9 +5,9 @@
 // (A: J.A. Nairn, CMES 4 (2003), eqs. 8, 9 and 27; positions: J.A. Nairn, CMES 92 (2013) 271-299, who extrapolates
 // displacements; the pair of positions stays exact when the body turns), and per crack the length times thickness and
 // the opening that belong to the node,
-//   A_i = sum_s t L_s S_i(x_s),    A_i opening_i = sum_s t L_s S_i(x_s) jump_s
-// over the crack's segments s with midpoints x_s. The areas add up to the crack's except at a tip, where nodes ahead
-// see no crossing. For the jump see interface_jumps.hpp.
+//   A_i = sum_s t L_s S*_is,    A_i opening_i = sum_s t L_s S*_is jump_s
+// over the crack's segments s, with the weights of interface_segments.hpp; the areas add up to the crack's where it
+// lies in matter. For the jump see interface_jumps.hpp.
 //
 // Only nodes that a crack passes, and particles in marked tiles, take part. Tiles go colour by colour, each node in
 // the order of its particles: the same bits on any number of threads.
@@ -54,11 +54,12 @@ struct ContactSumsChoice {
 
 /// Adds up particles and crack segments at the flagged nodes.
 /// `domains` [bodies] sizes of particles, `specific_area` [bodies] first area of a body's particles in m^2 per kg
-/// (1 / (density thickness)), `thickness` of the plane, m. Needs F or J of the particles for volumes, x0 for positions.
+/// (1 / (density thickness)), `thickness` of the plane, m. Needs F or J of the particles for volumes, x0 for positions,
+/// the grid's masses for areas.
 template <class Real>
 void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSumsChoice& choice,
                   const Particles<Real, 2>& particles, const exec::Array<DomainSetting<Real, 2>>& domains,
-                  const exec::Array<double>& specific_area, const Lattice& lattice, const CrackFields& fields,
+                  const exec::Array<double>& specific_area, const Grid<Real>& grid, const CrackFields& fields,
                   const Cracks& cracks, double thickness, ContactSums& sums);
 
 }  // namespace riven

@@ -1,25 +1,20 @@
-// The segments of cracks with an interface law, and the nodes that each belongs to: those that hold the crack and have
-// a weight at the segment's midpoint. Crack by crack: no two cracks share a node's entry, and the segments of one are
-// taken in order, so that sums over them do not depend on threads.
+// The segments of cracks with an interface law, and the nodes at which their faces meet, with weights
+//   S*_is = mu_i S_i(x_s) / sum_j mu_j S_j(x_s),   mu the mass of the relative motion of the two faces at the node,
+// x_s the segment's midpoint: the renormalised functions of crack surfaces (J.A. Nairn and Y.E. Aimene et al., the
+// multiple-crack CRAMP paper, eq. 4), with one mass for both faces. A node that one face barely reaches has a wild
+// velocity there and next to no say.
+//
+// Crack by crack: no two cracks share a node's entry, and the segments of one are taken in order, so that sums over
+// them do not depend on threads.
 #pragma once
 #include "core/math/shape.hpp"
 #include "core/state/bodies.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
+#include "kernels/contact_meetings.hpp"
 
 namespace riven {
-
-/// Size of a crack point's domain: that of the particles of the first body.
-template <class Real>
-DomainSetting<double, 2> crack_point_domain(const DomainSetting<Real, 2>& body) {
-  DomainSetting<double, 2> d;
-  for (int axis = 0; axis < 2; ++axis) {
-    const AxisSetting<Real>& a = body.axis[axis];
-    d.axis[axis] = {double(a.half), double(a.inv_4half), a.wall_lower, a.wall_upper};
-  }
-  return d;
-}
 
 struct SegmentFrame {
   double length;  ///< m
@@ -27,27 +22,53 @@ struct SegmentFrame {
   Vec2 normal;    ///< from above to below
 };
 
-template <class Shape>
+template <class Shape, class Real>
 struct InterfaceSegments {
-  DomainSetting<double, 2> domain;
+  DomainSetting<Real, 2> domain;  ///< of crack points: that of the first body's particles
   Lattice lattice;
+  const Real* mass;  ///< of the grid's slots
+  const int* extra;
   const int* node_index;
   const NodeCracks* nodes;
   const int* start;
   const Vec2* plane;
   const ContactSettings* law;
 
-  InterfaceSegments(const DomainSetting<double, 2>& d, const Lattice& l, const CrackFields& f, const Cracks& c)
-      : domain(d),
-        lattice(l),
+  InterfaceSegments(const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& g, const CrackFields& f,
+                    const Cracks& c)
+      : domain(domains[0]),
+        lattice(g.lattice),
+        mass(g.mass.data()),
+        extra(f.extra.data()),
         node_index(f.node_index.data()),
         nodes(f.nodes.data()),
         start(c.start.data()),
         plane(c.plane.data()),
         law(c.contact.data()) {}
 
-  /// body(p, frame, nodes) for each segment of crack c that starts at point p, where nodes(f) calls f(i, k, S) for each
-  /// of its nodes: entry i of CrackFields::nodes, which holds the crack as its k-th, and the weight.
+  RIVEN_INLINE long slot(const NodeCracks& n, int f) const {
+    return f == 0 ? n.node : long{lattice.nodes()} + extra[n.node] + f - 1;
+  }
+  RIVEN_INLINE Meetings meetings(const NodeCracks& n) const {
+    double m[ContactNode::fields] = {};
+    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
+      m[f] = mass[slot(n, f)];
+    return find_meetings(n, m, law);
+  }
+  /// Mass of the relative motion across crack k of a node, kg.
+  RIVEN_INLINE double relative_mass(const NodeCracks& n, int k) const {
+    double sum = 0;
+    for (const Meeting& m : meetings(n)) {
+      if (m.k != k)
+        continue;
+      const double a = mass[slot(n, m.above)], b = mass[slot(n, m.below)];
+      sum += a * b / (a + b);
+    }
+    return sum;
+  }
+
+  /// body(p, frame, nodes) for each segment of crack c that starts at point p, where nodes(f) calls f(i, k, S*) for
+  /// each of its nodes: entry i of CrackFields::nodes, which holds the crack as its k-th, and the weight.
   template <class Body>
   RIVEN_INLINE void each(long c, const Body& body) const {
     if (law[c].law != ContactLaw::interface)
@@ -58,23 +79,30 @@ struct InterfaceSegments {
       const double length = norm(line);
       if (length == 0)
         continue;
+      const auto a = Shape::axis(Real(at.x), domain.axis[0]);
+      const auto b = Shape::axis(Real(at.y), domain.axis[1]);
+      int index[neighbours<Shape, 2>], which[neighbours<Shape, 2>], count = 0;
+      double weight[neighbours<Shape, 2>], sum = 0;
+      for (int n = 0; n < neighbours<Shape, 2>; ++n) {
+        const int x = a.base + n % Shape::width, y = b.base + n / Shape::width;
+        if (x < 0 || y < 0 || x >= lattice.nx || y >= lattice.ny)
+          continue;
+        const int i = node_index[y * lattice.nx + x];
+        if (i < 0 || (nodes[i].crack[0] != c && nodes[i].crack[1] != c))
+          continue;
+        const int k = nodes[i].crack[0] == c ? 0 : 1;
+        const double w = double(a.s[n % Shape::width]) * b.s[n / Shape::width] * relative_mass(nodes[i], k);
+        if (!(w > 0))
+          continue;
+        index[count] = i;
+        which[count] = k;
+        weight[count++] = w;
+        sum += w;
+      }
       const Vec2 along = line * (1 / length);
-      const auto a = Shape::axis(at.x, domain.axis[0]);
-      const auto b = Shape::axis(at.y, domain.axis[1]);
       body(p, SegmentFrame{length, along, -turned(along)}, [&](auto&& f) {
-        for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-          const int x = a.base + k % Shape::width, y = b.base + k / Shape::width;
-          if (x < 0 || y < 0 || x >= lattice.nx || y >= lattice.ny)
-            continue;
-          const int i = node_index[y * lattice.nx + x];
-          if (i < 0)
-            continue;
-          const double S = a.s[k % Shape::width] * b.s[k / Shape::width];
-          if (nodes[i].crack[0] == c)
-            f(i, 0, S);
-          else if (nodes[i].crack[1] == c)
-            f(i, 1, S);
-        }
+        for (int n = 0; n < count; ++n)
+          f(index[n], which[n], weight[n] / sum);
       });
     }
   }

