@@ -13,7 +13,8 @@ namespace riven::exec {
 /// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
 template <class F>
 void launch(const Space& space, long n, const F& f) {
-  switch (space.kind()) {
+  // waking threads for a single task costs more than the task
+  switch (n <= 1 ? Kind::serial : space.kind()) {
     case Kind::serial:
       for (long i = 0; i < n; ++i)
         f(i);
