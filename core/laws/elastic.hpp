@@ -116,12 +116,14 @@ struct NeoHookean {
     return Real(0.5) * mu * (trace - Real(3)) - mu * logJ + Real(0.25) * lambda * (JJ - Real(1)) -
            Real(0.5) * lambda * logJ;
   }
-  /// Bound of the acoustic tensor's largest root per present density: (lambda J^2 + mu + mu b_max).
+  /// Largest root over all directions n of the acoustic tensor per present density in plane strain,
+  ///   mu (n . b n) I + (mu + lambda/2 (J^2 + 1)) n (x) n;
+  /// a bound of it in plane stress, where J holds the thickness and a free thickness makes waves slower.
   RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
     const Real bxx = p.F.xx * p.F.xx + p.F.xy * p.F.xy, byy = p.F.yx * p.F.yx + p.F.yy * p.F.yy;
     const Real bxy = p.F.xx * p.F.yx + p.F.xy * p.F.yy, half = Real(0.5) * (bxx - byy);
     const Real largest = Real(0.5) * (bxx + byy) + std::sqrt(half * half + bxy * bxy), J = det(p.F);
-    return std::sqrt(lambda * J * J * thickness_squared(J) + mu * (Real(1) + largest));
+    return std::sqrt(Real(0.5) * lambda * (J * J * thickness_squared(J) + Real(1)) + mu * (Real(1) + largest));
   }
   RIVEN_INLINE Real thickness_ratio(Real J) const { return std::sqrt(thickness_squared(J)); }
   RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const {
