@@ -9,5 +9,7 @@ namespace riven::perf {
 
 /// `riven-perf machine`: bandwidths and rates of this machine for each core count.
 void add_machine(CLI::App& app);
+/// `riven-perf throughput`: particle-steps per second of whole steps, and what cracks cost.
+void add_throughput(CLI::App& app);
 
 }  // namespace riven::perf

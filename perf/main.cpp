@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Measures riven and the machine that it runs on"};
   app.require_subcommand(1);
   riven::perf::add_machine(app);
+  riven::perf::add_throughput(app);
   try {
     app.parse(argc, argv);
     return static_cast<int>(riven::Exit::done);

@@ -1,0 +1,56 @@
+// Rates of whole steps: entrants take turns, so that what else the machine does meets all of them alike.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "perf/throughput_scenes.hpp"
+
+namespace riven::perf {
+
+/// Floating-point operations of one step of one particle in the crack-free block, an addition or a multiplication each.
+constexpr double flops_per_particle_step = 430;
+
+struct TaskTime {
+  std::string label, effect;
+  double nanoseconds = 0;  ///< per particle and step, median of the turns
+};
+
+/// One entrant on one number of threads.
+struct Result {
+  std::string name;
+  std::string without_cracks;
+  int threads = 0;
+  long particles = 0;
+  long steps = 0;               ///< in all turns
+  std::vector<double> seconds;  ///< per step, one a turn
+  std::vector<TaskTime> tasks;
+  long particle_bytes = 0, other_bytes = 0;  ///< of the arrays at the end
+  long contacts = 0;                         ///< pairs of fields that touched after the update, in all turns
+  double momentum_error = 0;                 ///< see Momentum::error
+  double energy_error = 0;                   ///< see Energy::relative_error
+
+  double best_rate() const;    ///< particle-steps/s of the fastest turn
+  double median_rate() const;  ///< of the median turn
+};
+
+/// Extra time of a result over the same scene without cracks.
+struct Overhead {
+  double median = 0;  ///< of the turns' ratios, less one
+  double best = 0;    ///< ratio of the fastest turns, less one
+};
+
+double median(std::vector<double> values);
+
+/// Runs all entrants of a group on each number of threads, turn by turn. Throws Error (unstable) if a run goes wrong.
+std::vector<Result> measure(const Group& group, const std::vector<int>& threads);
+
+/// What cracks cost `result`, whose partner is among `all`. Throws Error (internal) if it is not.
+Overhead crack_overhead(const Result& result, const std::vector<Result>& all);
+
+/// Rates, shares of the FMA bound (`fma[i]`: flop/s on `threads[i]`), speed-up, memory and overheads of one group.
+std::string rate_table(const std::vector<Result>& results, const std::vector<int>& threads,
+                       const std::vector<double>& fma);
+/// Nanoseconds per particle and step of each task, one column for each entrant on `threads`.
+std::string task_table(const std::vector<Result>& results, int threads);
+
+}  // namespace riven::perf

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "perf/throughput.hpp"
+
+namespace riven::perf {
+
+namespace {
+
+const Result& of(const std::vector<Result>& results, const std::string& name, int threads) {
+  return *std::find_if(results.begin(), results.end(),
+                       [&](const Result& r) { return r.name == name && r.threads == threads; });
+}
+
+double nanoseconds(const Result& r, const std::string& label) {
+  const auto t = std::find_if(r.tasks.begin(), r.tasks.end(), [&](const TaskTime& x) { return x.label == label; });
+  return t == r.tasks.end() ? -1 : t->nanoseconds;
+}
+
+/// Labels of all results, each where the first that has it does it.
+std::vector<std::string> labels_of(const std::vector<const Result*>& results) {
+  std::vector<std::string> labels;
+  for (const Result* r : results) {
+    auto place = labels.begin();
+    for (const TaskTime& t : r->tasks) {
+      const auto known = std::find(labels.begin(), labels.end(), t.label);
+      place = (known != labels.end() ? known : labels.insert(place, t.label)) + 1;
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
+std::string rate_table(const std::vector<Result>& results, const std::vector<int>& threads,
+                       const std::vector<double>& fma) {
+  std::string text =
+      fmt::format("{:<16} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9} {:>15}\n", "", "threads", "best M/s",
+                  "median", "ns/step", "FMA %", "speed-up", "B/part.", "momentum", "crack cost %");
+  for (const Result& r : results) {
+    const auto i = static_cast<size_t>(std::find(threads.begin(), threads.end(), r.threads) - threads.begin());
+    const double bound = fma[i] / flops_per_particle_step;
+    const double speed_up = r.best_rate() / of(results, r.name, threads.front()).best_rate();
+    std::string cost;
+    if (!r.without_cracks.empty()) {
+      const Overhead o = crack_overhead(r, results);
+      cost = fmt::format("{:.1f} (best {:.1f})", 100 * o.median, 100 * o.best);
+    }
+    text += fmt::format("{:<16} {:>7} {:>9.2f} {:>9.2f} {:>9.1f} {:>7.1f} {:>9.2f} {:>9.0f} {:>9.0e} {:>15}\n", r.name,
+                        r.threads, 1e-6 * r.best_rate(), 1e-6 * r.median_rate(), 1e9 / r.median_rate(),
+                        100 * r.best_rate() / bound, speed_up,
+                        static_cast<double>(r.particle_bytes + r.other_bytes) / static_cast<double>(r.particles),
+                        r.momentum_error, cost);
+  }
+  return text;
+}
+
+std::string task_table(const std::vector<Result>& results, int threads) {
+  std::vector<const Result*> columns;
+  for (const Result& r : results)
+    if (r.threads == threads)
+      columns.push_back(&r);
+  std::string text =
+      fmt::format("{:<34}", fmt::format("ns per particle, {} thread{}", threads, threads == 1 ? "" : "s"));
+  for (const Result* r : columns)
+    text += fmt::format(" {:>14}", r->name);
+  text += '\n';
+  for (const std::string& label : labels_of(columns)) {
+    text += fmt::format("{:<34}", label);
+    for (const Result* r : columns) {
+      const double t = nanoseconds(*r, label), share = 100e-9 * t * r->median_rate();
+      text += t < 0 ? fmt::format(" {:>14}", "-") : fmt::format(" {:>8.2f} {:>4.1f}%", t, share);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace riven::perf
