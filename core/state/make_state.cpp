@@ -155,11 +155,18 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: move of the step", p.step[0], p.step[1]);
   add("particles: body", p.body);
   add("particles: id", p.id);
-  add("particles: crack fields", s.fields.fields);
+  const CrackFields& f = s.fields;
+  add("particles: crack fields", f.fields);
+  add("particles: crossing memory", f.memory);
   add("grid: mass", s.grid.mass);
   add("grid: momentum and force", s.grid.q);
   add("grid: second extrapolation", s.grid.again);
   add("grid: higher orders", s.grid.high, s.grid.term, s.grid.next);
+  add("cracks: points", s.cracks.crack, s.cracks.plane, s.cracks.upper, s.cracks.lower, s.cracks.upper_velocity,
+      s.cracks.lower_velocity, s.cracks.plane0, s.cracks.jump, f.hashed, f.traced, f.segment_normal);
+  add("cracks: crossings", f.records, f.last_records, f.chunks);
+  add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
+      f.node_index, f.extra, f.nodes, f.candidate_start, f.candidate, f.tally, f.tally_normal, f.verdict);
   return list;
 }
 
