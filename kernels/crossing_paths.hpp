@@ -77,11 +77,12 @@ struct Paths {
                          std::fabs(ay * bx);
       const float rounding = 1e-6f * size;  // > 8 float roundings of every area below
       const float far = rounding * size;    // beats the product of two areas unless both are beyond rounding
+      const int bit = static_cast<int>(1u << s);
       const float sign_from = std::copysign(std::fabs(from) > rounding ? 1.f : 0.f, from);
       for (int g = 0; g < groups; ++g) {
         const Floats a = area_a[g], b = dx[g] * by - dy[g] * bx, to = from + (a - b);
         const Masks surely_not = (a * b > far) | (sign_from * to > rounding);
-        bits[g] |= ~surely_not & static_cast<int>(1u << s);
+        bits[g] |= ~surely_not & bit;
         area_a[g] = b;
       }
       ax = bx;

@@ -194,9 +194,11 @@ class Tracer {
     const auto x = Shape::axis(place_x(p), domain.axis[0]), y = Shape::axis(place_y(p), domain.axis[1]);
     unsigned along_x = 0, all = 0;
     for (int i = 0; i < width; ++i)
-      along_x |= unsigned{x.s[i] != Real(0)} << i;
+      if (x.s[i] != Real(0))
+        along_x |= 1u << i;
     for (int j = 0; j < width; ++j)
-      all |= (y.s[j] != Real(0) ? along_x : 0u) << (j * width);
+      if (y.s[j] != Real(0))
+        all |= along_x << (j * width);
     return all;
   }
 
