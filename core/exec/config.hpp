@@ -14,6 +14,13 @@
 #define RIVEN_OUTLINE __attribute__((noinline)) inline  // rare paths, kept out of the loops that matter
 #endif
 
+// Compiled once, however many callers there are.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RIVEN_ONCE __attribute__((noinline, noclone))
+#else
+#define RIVEN_ONCE __attribute__((noinline))
+#endif
+
 #define RIVEN_PRAGMA(x) _Pragma(#x)
 
 namespace riven::exec {

@@ -10,6 +10,13 @@
 
 namespace riven::exec {
 
+/// Every space calls the same machine code: inlined into each space's loop, a sum of products may be fused to
+/// multiply-adds in one and not in another, and the last bits differ.
+template <class F>
+RIVEN_ONCE void run_task(const F& f, long i) {
+  f(i);
+}
+
 /// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
 template <class F>
 void launch(const Space& space, long n, const F& f) {
@@ -17,16 +24,16 @@ void launch(const Space& space, long n, const F& f) {
   switch (n <= 1 ? Kind::serial : space.kind()) {
     case Kind::serial:
       for (long i = 0; i < n; ++i)
-        f(i);
+        run_task(f, i);
       break;
     case Kind::openmp:
 #pragma omp parallel for schedule(dynamic, 1) num_threads(space.threads())
       for (long i = 0; i < n; ++i)
-        f(i);
+        run_task(f, i);
       break;
     case Kind::stdpar:
       // par, not par_unseq: kernels may use atomics
-      std::for_each(std::execution::par, Counting{0}, Counting{n}, f);
+      std::for_each(std::execution::par, Counting{0}, Counting{n}, [&](long i) { run_task(f, i); });
       break;
   }
 }
