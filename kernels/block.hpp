@@ -97,6 +97,21 @@ RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
     target += value;
 }
 
+/// m[i] += ms sx[i] along one row of nodes. Three nodes are taken as four, the last with nothing added: it belongs to
+/// the tile's reach or to the padding.
+template <class Real, class Shape>
+RIVEN_INLINE void add_row(Real* m, Real ms, const Block<Real, Shape>& w, int k) {
+#if !defined(__CUDACC__)
+  if constexpr (Shape::width == 3) {
+    typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(sizeof(Real))));
+    *reinterpret_cast<Unaligned*>(m) += ms * Unaligned{w.sx[0][k], w.sx[1][k], w.sx[2][k], Real(0)};
+    return;
+  }
+#endif
+  for (int i = 0; i < Shape::width; ++i)
+    m[i] += ms * w.sx[i][k];
+}
+
 /// Adds to each node of particle k:  mass S  and  S A + dS/dx B + dS/dy C.
 template <bool Mass, bool Gradient, class Real, class Shape>
 RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
@@ -118,13 +133,8 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
       for (int i = 0; i < N; ++i)
         quad_at<Real>(q + 4 * i) += w.sx[i][k] * row;
     }
-    if constexpr (Mass) {
-      Real* m = to.mass + first + static_cast<long>(j) * to.stride;
-      const Real ms = mass * w.sy[j][k];
-#pragma GCC unroll 3
-      for (int i = 0; i < N; ++i)
-        m[i] += ms * w.sx[i][k];
-    }
+    if constexpr (Mass)
+      add_row(to.mass + first + static_cast<long>(j) * to.stride, mass * w.sy[j][k], w, k);
   }
 }
 

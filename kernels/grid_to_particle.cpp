@@ -62,13 +62,14 @@ struct StepNumbers {
 /// New velocity of each lane; the move goes to `dx`, `dy`.
 template <class Real>
 RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
-                                const StepNumbers<Real>& n, Real* dx, Real* dy) {
+                                const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
   exec::for_lanes(count, [&](int k) {
     const long i = first + k;
     const Real vx = p.vx[i], vy = p.vy[i];
     const Real ax = m.ax[k] - n.damping * vx, ay = m.ay[k] - n.damping * vy;
     dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * ax);
     dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * ay);
+    seen.moves(k, dx[k], dy[k]);
     p.vx[i] = n.keep * (vx + n.dt * ax) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k] - n.dt * n.damping * vx);
     p.vy[i] = n.keep * (vy + n.dt * ay) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k] - n.dt * n.damping * vy);
   });
@@ -106,14 +107,13 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
       else
         for (int k = 0; k < count; ++k)
           gather_motion<Stress, High>(w, k, q, high, nx, 0, extra, high_gradient, motion, gradient);
-      update_motion(p, first, count, motion, n, dx, dy);
+      update_motion(p, first, count, motion, n, dx, dy, seen);
       exec::for_lanes(count, [&](int k) {
         p.x[first + k] += dx[k];
         p.y[first + k] += dy[k];
       });
-      seen.moves(dx, dy, count);
       if constexpr (Stress)
-        seen.least_J(update_stress_lanes(p, first, count, gradient, n.dt, law));
+        update_stress_lanes(p, first, count, gradient, n.dt, law, seen);
     }
     see.put_moves(tile, seen);
     if constexpr (Stress)
@@ -149,8 +149,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
                            for (int k = 0; k < count; ++k)
                              gather_motion<false, High>(w, k, q, high, nx, crossing ? extra.word[first + k] : 0, extra,
                                                         false, motion, none);
-                           update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first);
-                           seen.moves(p.step_x + first, p.step_y + first, count);
+                           update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
                            for (int k = 0; k < count; ++k) {
                              const long i = first + k;
                              const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};

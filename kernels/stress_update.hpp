@@ -2,6 +2,7 @@
 //   grad v_p = sum v_ij (x) G_ip,   dF = exp(dt* grad v_p),   then the law.
 #pragma once
 #include "kernels/views.hpp"
+#include "kernels/watch.hpp"
 
 namespace riven {
 
@@ -22,7 +23,7 @@ namespace detail {
 
 template <class Law, class Real, class LawOf>
 RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
-                                     Real dt, const LawOf& law_of, Real* J) {
+                                     Real dt, const LawOf& law_of, TileWatch<Real>& seen) {
   exec::for_lanes(count, [&](int k) {
     const long i = first + k;
     LawState<Real> s;
@@ -45,29 +46,24 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
     } else {
       p.J[i] = s.J;
     }
-    J[k] = s.J;
+    seen.det_F(k, s.J);
   });
 }
 
 }  // namespace detail
 
-/// Updates particles first .. first + count - 1 and returns the least det F among them.
+/// Updates particles first .. first + count - 1.
 template <class Law, class Real>
-RIVEN_INLINE Real update_stress_lanes(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
-                                      Real dt, const BodyLookup<Law>& laws) {
-  alignas(64) Real J[exec::lanes];
+RIVEN_INLINE void update_stress_lanes(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
+                                      Real dt, const BodyLookup<Law>& laws, TileWatch<Real>& seen) {
   if (laws.single) {
     const Law law = laws.table[0];
     detail::update_stress_each<Law>(
-        p, first, count, g, dt, [&](long) -> const Law& { return law; }, J);
+        p, first, count, g, dt, [&](long) -> const Law& { return law; }, seen);
   } else {
     detail::update_stress_each<Law>(
-        p, first, count, g, dt, [&](long i) -> const Law& { return laws.of(i); }, J);
+        p, first, count, g, dt, [&](long i) -> const Law& { return laws.of(i); }, seen);
   }
-  Real least = J[0];
-  for (int k = 1; k < count; ++k)
-    least = J[k] < least ? J[k] : least;
-  return least;
 }
 
 }  // namespace riven

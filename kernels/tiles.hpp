@@ -82,7 +82,7 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     const int tile = list[t];
     const int corner_x = tile % lattice.tiles_x() * Lattice::tile - tile_margin;
     const int corner_y = tile / lattice.tiles_x() * Lattice::tile - tile_margin;
-    alignas(64) Real mass[Mass ? tile_reach * tile_reach : 1] = {};
+    alignas(64) Real mass[Mass ? tile_reach * tile_reach + 1 : 1] = {};  // one more: see add_row
     alignas(64) Real q[4 * tile_reach * tile_reach] = {};
     body(tile, long{start[tile]}, long{start[tile + 1]}, NodeTarget<Real>{mass, q, tile_reach, corner_x, corner_y});
     detail::flush<Mass>(lattice, corner_x, corner_y, mass, q, grid_mass, grid_q, shared);

@@ -46,7 +46,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, d
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            w.weigh(at, first);
                            const bool crossing = gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
-                           seen.least_J(update_stress_lanes(p, first, count, gradient, step, law));
+                           update_stress_lanes(p, first, count, gradient, step, law, seen);
                            for (int k = 0; k < count; ++k) {
                              const long i = first + k;
                              const Real m = p.mass[i], txy = -m * p.sxy[i];
@@ -83,7 +83,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
       const int count = static_cast<int>(std::min<long>(L, end - first));
       w.weigh(at, first);
       gather_gradients<Cracked>(w, first, count, again, nx, extra, gradient);
-      seen.least_J(update_stress_lanes(p, first, count, gradient, step, law));
+      update_stress_lanes(p, first, count, gradient, step, law, seen);
       exec::for_lanes(count, [&](int k) {
         p.x[first + k] += p.step_x[first + k];
         p.y[first + k] += p.step_y[first + k];

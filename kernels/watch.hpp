@@ -10,20 +10,24 @@
 
 namespace riven {
 
-/// Of one tile.
+/// Of one tile, lane by lane, so that noticing stays in the vectorised loops.
 template <class Real>
 struct TileWatch {
-  Real move = 0;                              ///< largest |dx| along an axis
-  Real sum = 0;                               ///< finite as long as every move is
-  Real J = std::numeric_limits<Real>::max();  ///< least det F; NaN sticks
+  static constexpr int lanes = exec::lanes;
+  alignas(64) Real move[lanes] = {};  ///< largest |dx| along an axis
+  alignas(64) Real sum[lanes] = {};   ///< finite as long as every move is
+  alignas(64) Real J[lanes];          ///< least det F; NaN sticks
 
-  RIVEN_INLINE void moves(const Real* dx, const Real* dy, int count) {
-    for (int k = 0; k < count; ++k) {
-      move = std::max(move, std::max(std::abs(dx[k]), std::abs(dy[k])));
-      sum += std::abs(dx[k]) + std::abs(dy[k]);
-    }
+  RIVEN_INLINE TileWatch() {
+    for (Real& j : J)
+      j = std::numeric_limits<Real>::max();
   }
-  RIVEN_INLINE void least_J(Real other) { J = J < other || J != J ? J : other; }
+  RIVEN_INLINE void moves(int k, Real dx, Real dy) {
+    const Real x = std::abs(dx), y = std::abs(dy), most = x > y ? x : y;
+    move[k] = most > move[k] ? most : move[k];
+    sum[k] += x + y;
+  }
+  RIVEN_INLINE void det_F(int k, Real other) { J[k] = J[k] < other ? J[k] : J[k] != J[k] ? J[k] : other; }
 };
 
 /// Where tiles put what they noticed.
@@ -32,12 +36,20 @@ struct WatchTiles {
 
   template <class Real>
   RIVEN_INLINE void put_moves(int tile, const TileWatch<Real>& t) const {
-    move[tile] = t.move;
-    finite[tile] = t.sum;
+    Real most = 0, all = 0;
+    for (int k = 0; k < t.lanes; ++k) {
+      most = std::max(most, t.move[k]);
+      all += t.sum[k];
+    }
+    move[tile] = most;
+    finite[tile] = all;
   }
   template <class Real>
   RIVEN_INLINE void put_J(int tile, const TileWatch<Real>& t) const {
-    J[tile] = t.J;
+    Real least = t.J[0];
+    for (int k = 1; k < t.lanes; ++k)
+      least = least < t.J[k] || least != least ? least : t.J[k];
+    J[tile] = least;
   }
   double *move, *J, *finite;
 };
@@ -58,10 +70,12 @@ void watch_moves(State<Real, 2>& s) {
 /// Least det F; NaN if any is.
 template <class Real>
 void watch_J(State<Real, 2>& s) {
-  TileWatch<double> all;
-  for (int t : s.particles.tiles.by_colour)
-    all.least_J(s.watch.tile_J[t]);
-  s.watch.least_J = all.J;
+  double least = std::numeric_limits<double>::max();
+  for (int t : s.particles.tiles.by_colour) {
+    const double J = s.watch.tile_J[t];
+    least = least < J || least != least ? least : J;
+  }
+  s.watch.least_J = least;
 }
 
 }  // namespace riven
