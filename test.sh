@@ -18,6 +18,7 @@ make_venv || echo "Without VTK the tests that read results back will fail" >&2
 say "Building"
 build_targets
 say "Testing"
+export OMP_WAIT_POLICY=passive  # tests share the cores: threads that spin at a barrier keep each other from it
 log=$build/test.log
 code=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$jobs" "$@" | tee "$log" || code=$?
