@@ -45,7 +45,8 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   if (s.cracks.size() > most)
     fmt::print("... and {} more cracks in summary.json\n", s.cracks.size() - most);
   for (const Summary::Warning& w : s.warnings)
-    fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x, w.first_place.y);
+    fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x,
+               w.first_place.y);
   fmt::print("results in {}\n", folder.string());
 }
 

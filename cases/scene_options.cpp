@@ -36,9 +36,13 @@ Scene SceneOptions::read() const {
   return s;
 }
 
-int threads_of(const Scene& s) { return s.threads > 0 ? s.threads : exec::available_threads(); }
+int threads_of(const Scene& s) {
+  return s.threads > 0 ? s.threads : exec::available_threads();
+}
 
-fs::path scene_folder() { return RIVEN_CASES_DIR; }
+fs::path scene_folder() {
+  return RIVEN_CASES_DIR;
+}
 
 std::optional<fs::path> shipped_scene(const std::string& name) {
   const fs::path file = scene_folder() / (name + ".toml");

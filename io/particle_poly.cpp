@@ -67,8 +67,7 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
   }));
   a.push_back(
       gather<double>("von_mises", "Pa", 1, order, [&](int i, Reals& o) { o.push_back(von_mises(stress.cauchy(i))); }));
-  a.push_back(
-      gather<double>("J", "", 1, order, [&](int i, Reals& o) { o.push_back(stress.volume_ratio(i)); }));
+  a.push_back(gather<double>("J", "", 1, order, [&](int i, Reals& o) { o.push_back(stress.volume_ratio(i)); }));
   if (!p.F[0].empty())
     a.push_back(gather<double>("deformation_gradient", "", 4, order, [&](int i, Reals& o) {
       o.insert(o.end(), {p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]});

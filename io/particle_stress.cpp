@@ -39,7 +39,9 @@ double ParticleStress::volume_ratio(long i) const {
   return J * law(i).thickness_ratio(J);
 }
 
-double ParticleStress::volume(long i) const { return particles_.mass[i] / material(i).density * volume_ratio(i); }
+double ParticleStress::volume(long i) const {
+  return particles_.mass[i] / material(i).density * volume_ratio(i);
+}
 
 CauchyStress ParticleStress::cauchy(long i) const {
   const LawState<double> s = state(i);

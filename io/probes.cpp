@@ -29,7 +29,9 @@ long position_of(const Particles<double, 2>& p, int id) {
   return std::find(p.id.begin(), p.id.end(), id) - p.id.begin();
 }
 
-double component(const CauchyStress& s, const Probe& p) { return p.axis != p.axis2 ? s.xy : p.axis == 0 ? s.xx : s.yy; }
+double component(const CauchyStress& s, const Probe& p) {
+  return p.axis != p.axis2 ? s.xy : p.axis == 0 ? s.xx : s.yy;
+}
 
 double mean_stress(const Simulation& m, const Probe& probe) {
   double sum = 0, volume = 0;
@@ -86,7 +88,8 @@ Probes::Probes(const Simulation& m) : scene_(m.scene) {
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
     return static_cast<int>(at - list.begin());
   };
-  for (const Probe& p : m.scene.probes) switch (p.kind) {
+  for (const Probe& p : m.scene.probes)
+    switch (p.kind) {
       case Probe::Kind::crack_opening: target_.push_back(named(m.scene.cracks, p.target)); break;
       case Probe::Kind::reaction:
       case Probe::Kind::travel: target_.push_back(named(m.state.constraints.owners, p.target)); break;
@@ -97,13 +100,15 @@ Probes::Probes(const Simulation& m) : scene_(m.scene) {
 
 std::vector<HistoryColumn> Probes::columns() const {
   std::vector<HistoryColumn> list;
-  for (const Probe& p : scene_.probes) list.push_back({p.name, unit(p)});
+  for (const Probe& p : scene_.probes)
+    list.push_back({p.name, unit(p)});
   return list;
 }
 
 std::vector<double> Probes::read(const Simulation& m) const {
   std::vector<double> values;
-  for (size_t i = 0; i < target_.size(); ++i) values.push_back(read_one(m, m.scene.probes[i], target_[i]));
+  for (size_t i = 0; i < target_.size(); ++i)
+    values.push_back(read_one(m, m.scene.probes[i], target_[i]));
   return values;
 }
 

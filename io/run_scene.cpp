@@ -5,9 +5,9 @@
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
 #include "core/scene/names.hpp"
+#include "io/atomic_file.hpp"
 #include "io/frames.hpp"
 #include "io/history.hpp"
-#include "io/atomic_file.hpp"
 #include "io/probes.hpp"
 #include "io/progress.hpp"
 
@@ -25,8 +25,9 @@ class Recorder {
     const auto& s = m_.state;
     const Energy& e = s.ledger.energy;
     const Momentum& p = s.ledger.momentum;
-    std::vector<double> v{s.clock.time,   s.clock.dt, e.kinetic,   e.strain,      e.external_work, e.damping, e.contact,
-                          e.numerical(), p.error(),  p.linear.x, p.linear.y, p.angular,  p.angular_error()};
+    std::vector<double> v{s.clock.time, s.clock.dt, e.kinetic,        e.strain,  e.external_work,
+                          e.damping,    e.contact,  e.numerical(),    p.error(), p.linear.x,
+                          p.linear.y,   p.angular,  p.angular_error()};
     for (const ConstraintOwner& o : s.constraints.owners)
       v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
     for (const double q : probes_.read(m_))
@@ -44,12 +45,22 @@ class Recorder {
 
  private:
   static std::vector<HistoryColumn> columns(const Simulation& m, const Probes& probes) {
-    std::vector<HistoryColumn> c{{"time", "s"},          {"dt", "s"},      {"kinetic", "J"},   {"strain", "J"},
-                                 {"external_work", "J"}, {"damping", "J"}, {"contact", "J"},   {"numerical", "J"},
-                                 {"momentum_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
-                                 {"angular_momentum", "kg m^2/s"}, {"angular_momentum_error", ""}};
+    std::vector<HistoryColumn> c{{"time", "s"},
+                                 {"dt", "s"},
+                                 {"kinetic", "J"},
+                                 {"strain", "J"},
+                                 {"external_work", "J"},
+                                 {"damping", "J"},
+                                 {"contact", "J"},
+                                 {"numerical", "J"},
+                                 {"momentum_error", ""},
+                                 {"momentum_x", "kg m/s"},
+                                 {"momentum_y", "kg m/s"},
+                                 {"angular_momentum", "kg m^2/s"},
+                                 {"angular_momentum_error", ""}};
     for (const ConstraintOwner& o : m.state.constraints.owners)
-      for (const auto& [what, unit] : {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
+      for (const auto& [what, unit] :
+           {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
         c.push_back({o.name + " " + what, unit});
     for (const HistoryColumn& p : probes.columns())
       c.push_back(p);
@@ -93,7 +104,8 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   out.effects = m.plan.effects();
   for (const Task& t : m.tasks)
     out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
-  out.energy = {e.kinetic, e.strain, e.external_work, e.damping, e.contact, e.fracture, e.numerical(), e.relative_error()};
+  out.energy = {e.kinetic, e.strain,   e.external_work, e.damping,
+                e.contact, e.fracture, e.numerical(),   e.relative_error()};
   out.momentum_error = s.ledger.momentum.error();
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);

@@ -10,7 +10,8 @@ namespace riven {
 
 void hash_if_due(Simulation& m) {
   auto& s = m.state;
-  if (!hash_due(m.space, s.grid.lattice, s.cracks, s.fields)) return;
+  if (!hash_due(m.space, s.grid.lattice, s.cracks, s.fields))
+    return;
   with_shape(m.plan.shape, [&](auto shape) {
     hash_cracks<typename decltype(shape)::type>(m.space, s.grid.lattice, s.cracks, s.fields);
   });

@@ -50,7 +50,7 @@ RIVEN_NAMES(Probe::Kind, {{Probe::Kind::crack_opening, "crack_opening"},
                           {Probe::Kind::velocity, "velocity"},
                           {Probe::Kind::stress, "stress"},
                           {Probe::Kind::reaction, "reaction"},
-                           {Probe::Kind::travel, "travel"},
+                          {Probe::Kind::travel, "travel"},
                           {Probe::Kind::mean_stress, "mean_stress"}})
 RIVEN_NAMES(exec::Kind,
             {{exec::Kind::serial, "serial"}, {exec::Kind::openmp, "openmp"}, {exec::Kind::stdpar, "stdpar"}})

@@ -45,7 +45,7 @@ struct Constraints {
   std::vector<GripBlock> grips;
   exec::Array<Constraint> list;  ///< of this step
   exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
-  exec::Array<double> carried;    ///< [8 list] change of momentum of each field and component before the update
+  exec::Array<double> carried;   ///< [8 list] change of momentum of each field and component before the update
   exec::Array<int> at_node;      ///< [nodes] index into list + 1 while the list is made, else 0
 };
 
