@@ -130,8 +130,9 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
 }
 
 template <class Real>
-void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage) {
+void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double early_impulse) {
   Constraints& c = s.constraints;
+  const int first_grip = static_cast<int>(c.owners.size() - c.grips.size());
   const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const Constraint* list = c.list.data();
   const ConstraintOwner* owners = c.owners.data();
@@ -158,11 +159,12 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
         const double change = momenta ? m * v - value : m * (v - value);
         value = Real(momenta ? m * v : v);
         double& before = carried[8 * n + 2 * f + axis];
-        if (stage == Stage::before)
+        const bool carry = k.owner[axis] >= first_grip;
+        if (stage == Stage::before && carry)
           before = change;
         if (stage == Stage::after)
           q[4 * slot + 2 + axis] += Real((change + before) / m * inv_dt);
-        given[axis] += change;
+        given[axis] += stage == Stage::before && !carry ? early_impulse * change : change;
       }
     }
     impulse[n] = {given[0], given[1]};
@@ -203,7 +205,7 @@ void settle_constraints(State<Real, 2>& s) {
 
 template void make_constraints(const Scene&, State<double, 2>&);
 template void list_constraints(const Plan&, State<double, 2>&);
-template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage);
+template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage, double);
 template void settle_constraints(State<double, 2>&);
 
 }  // namespace riven

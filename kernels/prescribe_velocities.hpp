@@ -1,8 +1,11 @@
 // Prescribed grid velocities on every field of the nodes of fixed lines, symmetry planes and grips, and the reaction
 // that they take. With v0 = p / m as the particles gave it,
 //   before the momentum update   p = m v(t)
-//   after it                     v = v(t + dt), a = (v(t + dt) - v0) / dt
-// so that all of the impulse reaches the particles, whichever way they take over the grid's velocity.
+//   after it                     v = v(t + dt), a = (v(t + dt) - v(t)) / dt
+// A mirror image would add to the node so that p = m v(t) without a change to any particle: FLIP must not hear of it
+// either, or half a body would not move as the whole does, and boundaries would take energy from the particles beside
+// them. A grip is no image but a body that may come and hit: there a = (v(t + dt) - v0) / dt, and all of the impulse
+// reaches the particles, whichever way they take over the grid's velocity.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
@@ -20,8 +23,10 @@ void make_constraints(const Scene&, State<Real, 2>&);
 template <class Real>
 void list_constraints(const Plan&, State<Real, 2>&);
 
+/// `early_impulse`: how much of a change of momenta before the update reaches the particles (0: FLIP, 1: PIC), in that
+/// stage.
 template <class Real>
-void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage);
+void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double early_impulse = 0);
 
 /// Ends the step: books impulses and work, moves the grips, turns impulses into reaction forces.
 template <class Real>

@@ -90,7 +90,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
     list_constraints(m.plan, m.state);
-    prescribe_velocities(m.space, m.state, Stage::before);
+    prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
   add(p.contact, "contact before", "contact", contact_before_update);
   add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
