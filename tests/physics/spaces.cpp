@@ -1,0 +1,154 @@
+// Every execution space and both scatters compute the same: ordered sums to the last bit, on any number of threads; all
+// to 1e-12 of a field's largest value over 100 steps, 1e-8 with contact, whose decisions can amplify a rounding error.
+#include "tests/spaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <numbers>
+
+#include "tests/physics/scenes.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+
+/// All that a run leaves, in the order of the particles' ids.
+struct Outcome {
+  std::vector<std::vector<double>> fields;  ///< x, y, vx, vy, stresses, volume, crack surfaces, energies
+  long touching = 0;
+  long extra_slots = 0;
+};
+
+std::vector<double> by_id(const exec::Array<double>& a, const exec::Array<int>& id) {
+  std::vector<double> list(static_cast<size_t>(a.size()));
+  for (long i = 0; i < a.size(); ++i)
+    list[static_cast<size_t>(id[i])] = a[i];
+  return list;
+}
+
+Outcome run(Scene s, const SpaceCase& where, const std::function<void(Simulation&)>& start) {
+  s.deterministic = where.scatter == ScatterKind::ordered;
+  s.scatter = where.scatter;
+  const exec::Space space(where.kind, where.threads);
+  Simulation m(s, space);
+  start(m);
+  m.take_stock();
+  for (int n = 0; n < 100; ++n)
+    m.step();
+  m.take_stock();
+  Outcome out;
+  const auto& p = m.state.particles;
+  for (const auto* a : {&p.x[0], &p.x[1], &p.v[0], &p.v[1], &p.stress[0], &p.stress[1], &p.stress[2], &p.J})
+    out.fields.push_back(by_id(*a, p.id));
+  const Cracks& c = m.state.cracks;
+  for (const auto* points : {&c.plane, &c.upper, &c.lower}) {
+    std::vector<double> list;
+    for (const Vec2 x : *points)
+      list.insert(list.end(), {x.x, x.y});
+    out.fields.push_back(list);
+  }
+  const Energy& e = m.state.ledger.energy;
+  out.fields.push_back({e.kinetic, e.strain, e.external_work});
+  out.touching = m.contact_after.touching;
+  out.extra_slots = m.state.fields.extra_slots;
+  return out;
+}
+
+double largest(const std::vector<double>& a) {
+  double most = 0;
+  for (const double v : a)
+    most = std::max(most, std::abs(v));
+  return most;
+}
+
+void expect_same_everywhere(const Scene& scene, const std::function<void(Simulation&)>& start, double tolerance) {
+  Outcome first;
+  for (const SpaceCase& where : space_cases()) {
+    const Outcome now = run(scene, where, start);
+    if (first.fields.empty()) {
+      first = now;
+      for (size_t f = 0; f < 7; ++f)
+        EXPECT_GT(largest(now.fields[f]), 0) << "field " << f << " must be alive for this to prove anything";
+      if (!scene.cracks.empty()) {
+        EXPECT_GT(now.extra_slots, 0);
+        EXPECT_EQ(now.touching > 0, scene.contact.law != ContactLaw::ignored);
+      }
+      continue;
+    }
+    for (size_t f = 0; f < now.fields.size(); ++f) {
+      const auto &a = first.fields[f], &b = now.fields[f];
+      ASSERT_EQ(a.size(), b.size());
+      if (where.scatter == ScatterKind::ordered) {
+        EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0) << where.name() << ", field " << f;
+        continue;
+      }
+      double apart = 0;
+      for (size_t i = 0; i < a.size(); ++i)
+        apart = std::max(apart, std::abs(a[i] - b[i]));
+      EXPECT_LE(apart, tolerance * largest(a)) << where.name() << ", field " << f;
+    }
+  }
+}
+
+TEST(Spaces, AgreeOnASolidBlock) {
+  Scene s = empty_scene(1. / 40, {{-0.5, -0.5}, {1.5, 1.5}});
+  s.bodies = {body("block", Rectangle{{0, 0}, {1, 1}})};
+  s.bodies[0].velocity = {0.2, 0.1};
+  s.bodies[0].spin = 1;
+  const auto pulsate = [](Simulation& m) {
+    auto& p = m.state.particles;
+    for (int i = 0; i < p.count(); ++i) {
+      p.v[0][i] += 3 * std::sin(3 * p.x[0][i]);
+      p.v[1][i] += 2 * std::cos(2 * p.x[0][i]) * p.x[1][i];
+    }
+  };
+  expect_same_everywhere(s, pulsate, 1e-12);
+}
+
+/// The plate of Nairn and Aimene, section 3, with a level crack from its left edge to its middle and an upright one
+/// across it; pulled by grips, and pushed together from within so that faces meet at once.
+Scene sent_plate(ContactLaw law) {
+  const double mm = 1e-3;
+  Scene s = empty_scene(0.5 * mm, {{-4 * mm, -4 * mm}, {54 * mm, 104 * mm}});
+  s.thickness = mm;
+  s.plane = Plane::stress;
+  s.materials = {{"plate", LawKind::linear_elastic, 2.5e9, 0.33, 1000}};
+  s.transfer = Transfer::fmpm;
+  s.order = 1;
+  s.bodies = {body("plate", Rectangle{{0, 0}, {50 * mm, 100 * mm}})};
+  s.contact.law = law;
+  s.cracks = {crack("level", {{0, 50 * mm}, {25 * mm, 50 * mm}}),
+              crack("upright", {{15 * mm, 25 * mm}, {15 * mm, 75 * mm}})};
+  const auto grip = [&](const char* name, double from, double sign) {
+    Grip g;
+    g.name = name;
+    g.region = Rectangle{{0, from}, {50 * mm, from + mm}};
+    g.velocity[1] = TimeFunction{sign * 3.849, [](double t) { return std::sin(std::numbers::pi * t / 0.204e-3); }, ""};
+    s.grips.push_back(g);
+  };
+  grip("bottom", -mm, -1);
+  grip("top", 100 * mm, 1);
+  return s;
+}
+
+void push_together(Simulation& m) {
+  auto& p = m.state.particles;
+  for (int i = 0; i < p.count(); ++i) {
+    p.v[0][i] = -100 * (p.x[0][i] - 0.015);
+    p.v[1][i] = -80 * (p.x[1][i] - 0.05);
+  }
+}
+
+TEST(Spaces, AgreeOnAPlateWithCrossingCracks) {
+  expect_same_everywhere(sent_plate(ContactLaw::ignored), push_together, 1e-12);
+}
+
+TEST(Spaces, AgreeOnAPlateWithCrossingCracksInContact) {
+  expect_same_everywhere(sent_plate(ContactLaw::frictionless), push_together, 1e-8);
+}
+
+}  // namespace
+}  // namespace riven
