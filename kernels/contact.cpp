@@ -72,7 +72,92 @@ struct Detection {
   bool volumes;
 };
 
-/// The contacts of one node, from its slots to its slots.
+enum class Touch { none, apart, bonds, sticks, pulls, pushes };
+
+struct Verdict {
+  Touch touch;
+  ContactPair pair;  ///< pulls (without its responses) and pushes
+  double gap;        ///< m
+};
+
+/// What detection says of a meeting; `field` are the node's four sums.
+RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, double dt, const Meeting& m,
+                           double relative_volume) {
+  if (m.law.law == ContactLaw::ignored)
+    return {Touch::none, {}, 0};
+  if (m.law.law == ContactLaw::bonded)
+    return {Touch::bonds, {}, 0};
+  if (m.law.law == ContactLaw::interface) {
+    Verdict v{Touch::pulls, {}, 0};
+    v.pair.above = m.above;
+    v.pair.below = m.below;
+    v.pair.normal = m.normal;
+    return v;
+  }
+  const bool by_volume = found.by == ContactDetection::volume;
+  if (by_volume && relative_volume < found.v_sep)
+    return {Touch::apart, {}, 0};
+  const bool held = by_volume && relative_volume > found.v_contact;
+  const double g = found.by == ContactDetection::displacement ? gap_of(m, field) : 0;
+  if (m.law.law == ContactLaw::stick)
+    return {held ? Touch::bonds : g <= 0 ? Touch::sticks : Touch::apart, {}, g};
+  return {Touch::pushes, touching_pair(m.law, m.above, m.below, m.normal, g, dt, held), g};
+}
+
+/// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
+/// search for a common solution.
+template <class Real, ContactStage stage>
+RIVEN_INLINE ContactReport one_contact(const Motion<Real, stage>& motion, const Detection& found, double dt,
+                                       const NodeCracks& n, long index, const Lattice& lattice, const int* extra,
+                                       const ContactSettings* laws) {
+  ContactReport report;
+  const long slot[2] = {n.node, long{lattice.nodes()} + extra[n.node]};
+  const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
+  if (!(mass[0] > 0) || !(mass[1] > 0))
+    return report;
+  const ContactField* field = found.field ? found.field + ContactNode::fields * index : nullptr;
+  const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
+  const Meeting m = neighbour_meeting(n, laws, 0, 0, 1);
+  const Verdict v = judge(found, field, dt, m, volume);
+  if (v.touch == Touch::none)
+    return report;
+  const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
+  const double inverse[2] = {1 / mass[0], 1 / mass[1]};
+  const int a = m.above, b = m.below;
+  const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
+  const double un = dot(u, m.normal), reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
+  const double tiny = ContactNode::tolerance * (norm(momentum[0]) + norm(momentum[1]));
+  Vec2 velocity[2], impulse[2];
+  bool touches = false;
+  if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced * un > tiny)) {
+    touches = true;
+    velocity[0] = velocity[1] = (momentum[0] + momentum[1]) * (1 / (mass[0] + mass[1]));
+    for (int f = 0; f < 2; ++f)
+      impulse[f] = mass[f] * (velocity[f] - momentum[f] * inverse[f]);
+  } else if (v.touch == Touch::pushes) {
+    const PairImpulse r = pair_impulse(v.pair, reduced, un, dot(u, t));
+    touches = r.lambda != 0 || r.tau != 0;
+    impulse[b] = r.lambda * m.normal + r.tau * t;
+    impulse[a] = -impulse[b];
+    for (int f = 0; f < 2; ++f)
+      velocity[f] = (momentum[f] + impulse[f]) * inverse[f];
+  }
+  ++(touches ? report.touching : report.apart);
+  if (!touches)
+    return report;
+  if (v.touch != Touch::bonds) {
+    report.penetration = std::max(0., -v.gap);
+    report.gap = std::max(0., v.gap);
+    report.early = volume < found.v_sep;
+  }
+  for (int f = 0; f < 2; ++f) {
+    report.work += 0.5 * dot(impulse[f], motion.first_velocity(slot[f], dt) + velocity[f]);
+    motion.change(slot[f], impulse[f], velocity[f], dt);
+  }
+  return report;
+}
+
+/// The contacts of a node with several meetings, from its slots to its slots.
 template <class Real, ContactStage stage>
 struct NodeContact {
   const Motion<Real, stage>& motion;
@@ -110,62 +195,41 @@ struct NodeContact {
     return -1;
   }
 
-  /// Fields that bonded cracks have merged may meet twice across another: they share one interface.
-  RIVEN_INLINE void add_interface(const Meeting& m) {
-    if (const int k = find_same(m); k >= 0) {
-      pair[k].share += m.share;
-      return;
-    }
-    ContactPair p;
-    p.above = m.above;
-    p.below = m.below;
-    p.normal = m.normal;
-    add(m, p, 0);
-  }
-
-  /// Faces that may touch and part; `held` ones do not part. Of two meetings that bonded fields make one, the first to
-  /// close counts.
-  RIVEN_INLINE void add_touching(const Meeting& m, bool held) {
-    const double g = found.by == ContactDetection::displacement ? gap_of(m, field) : 0;
-    if (m.law.law == ContactLaw::stick) {
-      if (held) {
+  /// Of two meetings across one crack that bonded fields make one, the first to close counts, and an interface has the
+  /// area of both.
+  RIVEN_INLINE void list(const Meeting& m, const Verdict& v) {
+    switch (v.touch) {
+      case Touch::none: return;
+      case Touch::apart: ++report.apart; return;
+      case Touch::bonds:
         node.bond(m.above, m.below);
         ++report.touching;
-      } else if (g <= 0) {
-        stick_gap[node.stickings] = g;
+        return;
+      case Touch::sticks:
+        stick_gap[node.stickings] = v.gap;
         node.add(StickingPair{m.above, m.below, m.normal});
-      } else {
-        ++report.apart;
-      }
-      return;
+        return;
+      case Touch::pulls:
+      case Touch::pushes: break;
     }
-    const ContactPair p = touching_pair(m.law, m.above, m.below, m.normal, g, dt, held);
-    if (const int k = find_same(m); k >= 0) {
-      if (g < gap[k]) {
-        gap[k] = g;
-        node.pair[k] = p;
-      }
-      return;
+    const int k = find_same(m);
+    if (k < 0) {
+      add(m, v.pair, v.gap);
+    } else if (v.touch == Touch::pulls) {
+      pair[k].share += m.share;
+    } else if (v.gap < gap[k]) {
+      gap[k] = v.gap;
+      node.pair[k] = v.pair;
     }
-    add(m, p, g);
   }
 
   RIVEN_INLINE void detect(const Meetings& meetings, double relative_volume) {
     for (const Meeting& m : meetings)
-      if (m.law.law == ContactLaw::bonded) {
-        node.bond(m.above, m.below);
-        ++report.touching;
-      }
-    for (const Meeting& m : meetings) {
-      if (m.law.law == ContactLaw::ignored || node.together(m.above, m.below))
-        continue;
-      if (m.law.law == ContactLaw::interface)
-        add_interface(m);
-      else if (found.by == ContactDetection::volume && relative_volume < found.v_sep)
-        ++report.apart;
-      else
-        add_touching(m, found.by == ContactDetection::volume && relative_volume > found.v_contact);
-    }
+      if (m.law.law == ContactLaw::bonded)
+        list(m, judge(found, field, dt, m, relative_volume));
+    for (const Meeting& m : meetings)
+      if (!node.together(m.above, m.below))
+        list(m, judge(found, field, dt, m, relative_volume));
   }
 
   /// Velocity of a group of fields before the step's forces.
@@ -260,9 +324,13 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   const ContactSettings* laws = cracks.contact.data();
   const Lattice lattice = grid.lattice;
   report += exec::parallel_reduce<ContactReport>(space, label, fields.nodes.size(), [=](long i) {
+    const NodeCracks& n = nodes[i];
+    if (n.crack[0] < 0)
+      return ContactReport{};
+    if (n.crack[1] < 0 && laws[n.crack[0]].law != ContactLaw::interface)
+      return one_contact(motion, found, dt, n, i, lattice, extra, laws);
     NodeContact<Real, stage> here{motion, found, dt};
-    if (nodes[i].crack[0] >= 0)
-      here.run(nodes[i], i, lattice, extra, laws);
+    here.run(n, i, lattice, extra, laws);
     return here.report;
   });
 }

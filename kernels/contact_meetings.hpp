@@ -25,6 +25,13 @@ struct Meetings {
   const Meeting* end() const { return list + count; }
 };
 
+/// Fields f and f + 2^k, which meet across crack k alone.
+RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, const ContactSettings* laws, int k, int f, double share) {
+  const int g = f + (1 << k);
+  const bool crossing_above = n.side[k] == Side::above;
+  return {crossing_above ? g : f, crossing_above ? f : g, k, n.normal[k], n.normal0[k], laws[n.crack[k]], share};
+}
+
 /// Fields that differ on both cracks and have none between them.
 RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const ContactSettings* laws, int f, int g) {
   const ContactSettings &a = laws[n.crack[0]], &b = laws[n.crack[1]];
@@ -58,11 +65,9 @@ RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[Co
       const int g = f + (1 << k);
       if (!present(f) || !present(g))
         continue;
-      const bool crossing_above = n.side[k] == Side::above;
       const double both = mass[f] + mass[g];
       total += both;
-      m.list[m.count++] = {crossing_above ? g : f, crossing_above ? f : g, k,   n.normal[k],
-                           n.normal0[k],           laws[n.crack[k]],       both};
+      m.list[m.count++] = neighbour_meeting(n, laws, k, f, both);
     }
     for (int i = first; i < m.count; ++i)
       m.list[i].share /= total;

@@ -22,22 +22,26 @@ RIVEN_INLINE double area_ratio(const Real* const F[4], const Real* J, long i) {
 /// particle: particles are sorted by cell.
 template <class Shape>
 struct FlaggedNeighbours {
-  int base_x = -1, base_y = -1;
+  int cell_x = -1, cell_y = -1;
   int count = 0;
   int neighbour[neighbours<Shape, 2>];
   int index[neighbours<Shape, 2>];
+  Vec2 place[neighbours<Shape, 2>];
 
-  RIVEN_INLINE void find(int x, int y, int nx, const int* node_index, const NodeCracks* nodes) {
-    if (x == base_x && y == base_y)
+  RIVEN_INLINE void find(int x, int y, const Lattice& lattice, const int* node_index, const NodeCracks* nodes) {
+    if (x == cell_x && y == cell_y)
       return;
-    base_x = x;
-    base_y = y;
+    constexpr int before = Shape::width == 3;  // nodes on the lower side of a cell's own
+    cell_x = x;
+    cell_y = y;
     count = 0;
     for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-      const int i = node_index[(y + k / Shape::width) * nx + x + k % Shape::width];
+      const int ix = x - before + k % Shape::width, iy = y - before + k / Shape::width;
+      const int i = node_index[iy * lattice.nx + ix];
       if (i < 0 || nodes[i].crack[0] < 0)
         continue;
       neighbour[count] = k;
+      place[count] = lattice.position(ix, iy);
       index[count++] = i;
     }
   }
@@ -65,12 +69,13 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
   const auto tile_body = [=](int tile) {
     FlaggedNeighbours<Shape> near;
     for (int p = start[tile]; p < start[tile + 1]; ++p) {
-      const DomainSetting<Real, 2>& d = domain.of(p);
-      const auto a = Shape::axis((x[p] - origin_x) * inv_h, d.axis[0]);
-      const auto b = Shape::axis((y[p] - origin_y) * inv_h, d.axis[1]);
-      near.find(a.base, b.base, lattice.nx, node_index, nodes);
+      const Real px = (x[p] - origin_x) * inv_h, py = (y[p] - origin_y) * inv_h;
+      near.find(Shape::cell(px), Shape::cell(py), lattice, node_index, nodes);
       if (near.count == 0)
         continue;
+      const DomainSetting<Real, 2>& d = domain.of(p);
+      const auto a = Shape::axis(px, d.axis[0]);
+      const auto b = Shape::axis(py, d.axis[1]);
       const double m = mass[p];
       const double A = area ? m * specific[body[p]] * area_ratio(F, J, p) : 0;
       for (int c = 0; c < near.count; ++c) {
@@ -80,7 +85,7 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
         f.mass += mS;
         f.area += A * S;
         if (position) {
-          const Vec2 node = lattice.position(nodes[i].node);
+          const Vec2 node = near.place[c];
           f.x += mS * (Vec2{double(x[p]), double(y[p])} - node);
           f.X += mS * (Vec2{double(X[p]), double(Y[p])} - node);
         }

@@ -117,4 +117,21 @@ RIVEN_INLINE double response_impulse(const PairResponse& r, double reduced_mass,
   return reduced_mass * ((1 - r.give) * free_velocity - r.bias);
 }
 
+struct PairImpulse {
+  double lambda, tau;
+};
+
+/// The impulse of a pair, given the velocities of approach and of sliding that it would have without.
+RIVEN_INLINE PairImpulse pair_impulse(const ContactPair& p, double reduced_mass, double across, double along) {
+  double lambda = response_impulse(p.across, reduced_mass, across);
+  if (p.unilateral)
+    lambda = std::max(0., lambda);
+  double tau = response_impulse(p.along, reduced_mass, along);
+  if (p.frictional) {
+    const double limit = p.friction * std::abs(lambda);
+    tau = std::clamp(tau, -limit, limit);
+  }
+  return {lambda, tau};
+}
+
 }  // namespace riven

@@ -121,14 +121,7 @@ struct ContactSweep {
     const ContactPair& p = pair(k);
     const Vec2 n = p.normal, t = turned(n), u = approach(k);
     const double m = reduced[k];
-    double lambda = response_impulse(p.across, m, dot(u, n) + r[2 * k] / m);
-    if (p.unilateral)
-      lambda = std::max(0., lambda);
-    double tau = response_impulse(p.along, m, dot(u, t) + r[2 * k + 1] / m);
-    if (p.frictional) {
-      const double limit = p.friction * std::abs(lambda);
-      tau = std::clamp(tau, -limit, limit);
-    }
+    const auto [lambda, tau] = pair_impulse(p, m, dot(u, n) + r[2 * k] / m, dot(u, t) + r[2 * k + 1] / m);
     const double dn = lambda - r[2 * k], dt = tau - r[2 * k + 1];
     r[2 * k] = lambda;
     r[2 * k + 1] = tau;
