@@ -1,9 +1,9 @@
 // Contact between the fields of every node that a crack passes (laws: core/laws/contact.hpp, solution of a node:
 // core/laws/contact_node.hpp). With A and B the node's cracks, field = 1 (crosses A) + 2 (crosses B):
-//   pairs (0,1) and (2,3) meet across A with A's normal, (0,2) and (1,3) across B with B's (seed of the pairs: section
-//   "Crack Surface Contact" of the multiple-crack CRAMP paper); fields that differ on both cracks with none between
-//   them, (0,3) or (1,2), meet with the sum of both normals, each turned to point from the one to the other, and the
-//   stricter of the two laws.
+//   pairs (0,1) and (2,3) meet across A with A's normal, (0,2) and (1,3) across B with B's (J.A. Nairn and Y.E. Aimene,
+//   Modeling Multiple Crack Propagation in the Material Point Method, section 2.1.3); fields that differ on both cracks
+//   with none between them, (0,3) or (1,2), meet with the sum of both normals, each turned to point from the one to the
+//   other, and the stricter of the two laws.
 //
 // Detection, for laws whose faces may part (stick, frictionless, Coulomb):
 //   volume        apart if V_rel < V_sep, held together if V_rel > V_contact, by velocity between (J.A. Nairn, CMES 4
@@ -18,12 +18,12 @@
 // ignoring the gap until it is negative would leave them a whole step's approach inside each other.
 //
 // Stages: before the forces and after a second extrapolation momenta change; after the update velocities change, and
-// the accelerations by dv/dt, so that bonded fields move their particles as one field would (the CRAMP paper's section
-// on contact). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the stage
-// `after`, where v - a dt is the velocity before the forces and a all other forces; adding F = impulse/dt to the forces
-// would give the same v and a. The work of the impulses is taken with the mean of the velocities before and after, in
-// `after` with the velocity before the forces: a force that contact only balances moves nothing and contact takes no
-// energy. In the other stages an interface only keeps together what it is too stiff to let go.
+// the accelerations by dv/dt, so that bonded fields move their particles as one field would (Nairn and Aimene,
+// section 2.1.3). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the
+// stage `after`, where v - a dt is the velocity before the forces and a all other forces; adding F = impulse/dt to the
+// forces would give the same v and a. The work of the impulses is taken with the mean of the velocities before and
+// after, in `after` with the velocity before the forces: a force that contact only balances moves nothing and contact
+// takes no energy. In the other stages an interface only keeps together what it is too stiff to let go.
 #pragma once
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"

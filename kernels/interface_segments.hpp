@@ -1,8 +1,8 @@
 // The segments of cracks with an interface law, and the nodes at which their faces meet, with weights
 //   S*_is = mu_i S_i(x_s) / sum_j mu_j S_j(x_s),   mu the mass of the relative motion of the two faces at the node,
-// x_s the segment's midpoint: the renormalised functions of crack surfaces (J.A. Nairn and Y.E. Aimene et al., the
-// multiple-crack CRAMP paper, eq. 4), with one mass for both faces. A node that one face barely reaches has a wild
-// velocity there and next to no say.
+// x_s the segment's midpoint: the renormalised functions of crack surfaces (J.A. Nairn and Y.E. Aimene, Modeling
+// Multiple Crack Propagation in the Material Point Method, eq. 4), with one mass for both faces. A node that one face
+// barely reaches has a wild velocity there and next to no say.
 //
 // Crack by crack: no two cracks share a node's entry, and the segments of one are taken in order, so that sums over
 // them do not depend on threads.
