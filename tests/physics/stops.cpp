@@ -1,0 +1,244 @@
+// Runs that go wrong stop as unstable: which particle, where, which limit and what to try; and what was written before
+// still opens. Told by the library's error and by the program's exit code.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "io/vtkhdf.hpp"
+#include "tests/io/results_sample.hpp"
+#include "tests/physics/scenes.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+
+Scene resting_block() {
+  Scene s = empty_scene(1. / 8, {{-0.5, -0.5}, {1.5, 1.5}});
+  s.bodies = {body("block", Rectangle{{0, 0}, {1, 0.5}})};
+  return s;
+}
+
+/// The error that ends a run within `steps`; a test failure when there is none.
+Trouble trouble_of(Simulation& m, int steps) {
+  try {
+    for (int n = 0; n < steps; ++n) {
+      m.step();
+      m.take_stock();
+    }
+  } catch (const Error& e) {
+    return e.trouble();
+  }
+  ADD_FAILURE() << "ran without an error";
+  return {};
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// `id`: the particle that must be named, or -1 when any may be.
+void expect_stop(const Trouble& t, const std::string& what, int id) {
+  EXPECT_EQ(t.code, Exit::unstable);
+  EXPECT_TRUE(holds(t.what, what)) << t.what;
+  EXPECT_TRUE(holds(t.where, "step ")) << t.where;
+  EXPECT_TRUE(holds(t.where, id < 0 ? "particle " : "particle " + std::to_string(id) + " ")) << t.where;
+  EXPECT_TRUE(holds(t.where, ") m")) << t.where;
+  EXPECT_FALSE(t.value.empty());
+  EXPECT_FALSE(t.limit.empty());
+  EXPECT_FALSE(t.suggestion.empty());
+}
+
+constexpr StressUpdate updates[] = {StressUpdate::usl, StressUpdate::musl, StressUpdate::usf, StressUpdate::usavg};
+
+TEST(Stops, NameTheParticleThatLeavesTheGrid) {
+  Scene s = resting_block();
+  s.bodies[0].velocity = {40, 0};
+  const exec::Space space;
+  Simulation m(s, space);
+  const Trouble t = trouble_of(m, 1000);
+  expect_stop(t, "left the grid", -1);
+  EXPECT_TRUE(holds(t.limit, "1.5")) << t.limit;
+  EXPECT_TRUE(holds(t.suggestion, "[grid]")) << t.suggestion;
+}
+
+TEST(Stops, NameAParticleWithoutANumber) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const StressUpdate update : updates) {
+      Scene s = resting_block();
+      s.stress_update = update;
+      const exec::Space space;
+      Simulation m(s, space);
+      for (int n = 0; n < 5; ++n)
+        m.step();
+      const int at = 37;
+      m.state.particles.v[1][at] = bad;
+      const Trouble t = trouble_of(m, 3);
+      expect_stop(t, "not a number", -1);
+      EXPECT_TRUE(holds(t.where, "step 5,") || holds(t.where, "step 6,")) << t.where;
+    }
+}
+
+TEST(Stops, NameAParticleWhoseStressIsNotANumber) {
+  for (const LawKind law : {LawKind::linear_elastic, LawKind::neo_hookean}) {
+    Scene s = resting_block();
+    s.materials = {solid(law)};
+    const exec::Space space;
+    Simulation m(s, space);
+    m.state.particles.stress[0][12] = std::numeric_limits<double>::quiet_NaN();
+    if (law == LawKind::neo_hookean)
+      m.state.particles.F[0][12] = std::numeric_limits<double>::quiet_NaN();
+    const Trouble t = trouble_of(m, 3);
+    EXPECT_EQ(t.code, Exit::unstable);
+    EXPECT_TRUE(holds(t.where, "particle ")) << t.where;
+  }
+}
+
+TEST(Stops, NameTheParticleThatTurnsInsideOut) {
+  for (const LawKind law : {LawKind::linear_elastic, LawKind::neo_hookean})
+    for (const StressUpdate update : updates) {
+      Scene s = resting_block();
+      s.materials = {solid(law)};
+      s.stress_update = update;
+      const exec::Space space;
+      Simulation m(s, space);
+      int id;
+      if (law == LawKind::neo_hookean) {
+        m.state.particles.F[0][12] = -0.5;
+        id = m.state.particles.id[12];
+      } else {
+        m.state.particles.J[12] = -0.5;
+        id = m.state.particles.id[12];
+      }
+      const Trouble t = trouble_of(m, 1);
+      expect_stop(t, "inside out", id);
+      EXPECT_TRUE(holds(t.value, "det F = -0.5")) << t.value;
+      EXPECT_EQ(t.limit, "det F > 0");
+    }
+}
+
+TEST(Stops, NameTheFastestParticleWhenEnergyGrowsFromNothing) {
+  Scene s = resting_block();
+  s.bodies[0].spin = 1;
+  const exec::Space space;
+  Simulation m(s, space);
+  m.take_stock();
+  for (int n = 0; n < 5; ++n)
+    m.step();
+  m.take_stock();
+  const int fastest = 20;
+  m.state.particles.v[0][fastest] = 5;
+  try {
+    m.take_stock();
+    FAIL() << "energy grew, and nothing was said";
+  } catch (const Error& e) {
+    expect_stop(e.trouble(), "energy grows", m.state.particles.id[fastest]);
+    EXPECT_TRUE(holds(e.trouble().limit, "5 % (limits.energy_growth)")) << e.trouble().limit;
+  }
+}
+
+/// Exit code and what the program wrote to its error stream.
+struct Outcome {
+  int code;
+  std::string errors;
+};
+Outcome riven(const std::string& arguments, const sample::Folder& folder) {
+  const std::string errors = (folder / "errors.txt").string();
+  const std::string line = std::string(RIVEN_PROGRAM) + " " + arguments + " >/dev/null 2>'" + errors + "'";
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, sample::text_of(errors)};
+}
+
+/// A block that flies at `speed` towards the wall of its grid, 50 mm away.
+std::string write_scene(const sample::Folder& folder, const std::string& speed, const std::string& more = "") {
+  const std::string path = (folder / "scene.toml").string();
+  std::ofstream(path) << R"toml(title = "flying block"
+[solver]
+time = "40 ms"
+stress_update = "usavg"
+[grid]
+cell = "5 mm"
+lower = ["-50 mm", "-50 mm"]
+upper = ["100 mm", "100 mm"]
+[[material]]
+name = "rubber"
+E = "1 MPa"
+nu = 0.3
+density = "1 g/cm^3"
+[[body]]
+name = "block"
+material = "rubber"
+rectangle = { lower = ["0 mm", "0 mm"], upper = ["50 mm", "25 mm"] }
+velocity = [)toml" << '"'
+                      << speed << R"toml(", "0 m/s"]
+[output]
+frames = 20
+)toml" << more;
+  return path;
+}
+
+TEST(StopsOfTheProgram, LeaveFramesHistoryAndSummaryBehind) {
+  const sample::Folder folder;
+  const std::string out = (folder / "out").string();
+  const Outcome o = riven("run " + write_scene(folder, "3 m/s") + " --quiet --threads 1 -o " + out, folder);
+  EXPECT_EQ(o.code, 3) << o.errors;
+  for (const char* part : {"a particle left the grid", "particle ", " m: ", "value:", "allowed:", "try:"})
+    EXPECT_TRUE(holds(o.errors, part)) << part << " is missing in\n" << o.errors;
+  const auto frames = list_frames(std::filesystem::path(out) / "frames", "particles");
+  // 50 mm at 3 m/s: 17 of 40 ms, so eight frames after the first, and the last state
+  EXPECT_GE(frames.size(), 9u);
+  double last = -1;
+  for (const auto& frame : frames) {
+    const TimedPolyData data = read_vtkhdf(frame);
+    EXPECT_EQ(data.data.points.size(), 3u * 200u) << frame;
+    EXPECT_GT(data.time, last);
+    last = data.time;
+  }
+  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / "particles.vtkhdf"));
+  EXPECT_FALSE(sample::text_of(std::filesystem::path(out) / "history.csv").empty());
+  const auto summary = nlohmann::json::parse(sample::text_of(std::filesystem::path(out) / "summary.json"));
+  EXPECT_EQ(summary.at("status"), "unstable");
+  EXPECT_NEAR(summary.at("time").get<double>(), 0.05 / 3, 0.003);
+}
+
+TEST(StopsOfTheProgram, UnstableTimeStepsEndWithExitThree) {
+  const sample::Folder folder;
+  const std::string out = (folder / "out").string();
+  const Outcome o = riven("run " + write_scene(folder, "0.5 m/s") + " --quiet --threads 1 --set solver.cfl=1.9 --set " +
+                              "'body.block.spin=\"20 rad/s\"' -o " + out,
+                          folder);
+  EXPECT_EQ(o.code, 3) << o.errors;
+  EXPECT_TRUE(holds(o.errors, "particle ")) << o.errors;
+  EXPECT_TRUE(holds(o.errors, "solver.cfl")) << o.errors;
+  EXPECT_FALSE(list_frames(std::filesystem::path(out) / "frames", "particles").empty());
+}
+
+TEST(StopsOfTheProgram, BadInputIsTwoAndAFolderThatCannotBeIsFour) {
+  const sample::Folder folder;
+  const std::string scene = write_scene(folder, "0.1 m/s");
+  const std::string out = (folder / "out").string();
+  EXPECT_EQ(riven("run " + scene + " --quiet --set 'solver.time=\"0.1 ms\"' -o " + out, folder).code, 0);
+  const Outcome key = riven("run " + write_scene(folder, "0.1 m/s", "fremes = 3\n") + " -o " + out, folder);
+  EXPECT_EQ(key.code, 2);
+  EXPECT_TRUE(holds(key.errors, "fremes")) << key.errors;
+  EXPECT_EQ(riven("run " + write_scene(folder, "0.1 kg") + " -o " + out, folder).code, 2);
+  EXPECT_EQ(riven("run no_such_scene", folder).code, 2);
+  EXPECT_EQ(riven("run " + scene + " --no-such-option", folder).code, 2);
+  EXPECT_EQ(riven("no_such_command", folder).code, 2);
+  std::ofstream(folder / "file") << "not a folder";
+  const std::string good = write_scene(folder, "0.1 m/s");
+  const Outcome file = riven("run " + good + " --quiet -o " + (folder / "file").string() + "/inside", folder);
+  EXPECT_EQ(file.code, 4) << file.errors;
+  EXPECT_TRUE(holds(file.errors, "inside")) << file.errors;
+}
+
+}  // namespace
+}  // namespace riven
