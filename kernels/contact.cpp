@@ -70,6 +70,7 @@ struct Detection {
   const ContactField* field;  ///< null where not summed
   const ContactArea* area;
   bool volumes;
+  double reach;  ///< m, gap beyond which nothing touches (displacement)
 };
 
 enum class Touch { none, apart, bonds, sticks, pulls, pushes };
@@ -99,6 +100,8 @@ RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, do
     return {Touch::apart, {}, 0};
   const bool held = by_volume && relative_volume > found.v_contact;
   const double g = found.by == ContactDetection::displacement ? gap_of(m, field) : 0;
+  if (g > found.reach)
+    return {Touch::apart, {}, g};
   if (m.law.law == ContactLaw::stick)
     return {held ? Touch::bonds : g <= 0 ? Touch::sticks : Touch::apart, {}, g};
   return {Touch::pushes, touching_pair(m.law, m.above, m.below, m.normal, g, dt, held), g};
@@ -351,8 +354,10 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
   if ((by_field && !summed) || (by_volume && !sums.volumes) ||
       (interfaces && sums.area.size() != 2 * fields.nodes.size()))
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
-  const Detection found{rules.detection,  rules.v_sep,           rules.v_contact, summed ? sums.field.data() : nullptr,
-                        sums.area.data(), sums.volumes && summed};
+  const Detection found{rules.detection,     rules.v_sep,
+                        rules.v_contact,     summed ? sums.field.data() : nullptr,
+                        sums.area.data(),    sums.volumes && summed,
+                        0.2 * grid.lattice.h};
   switch (stage) {
     case ContactStage::before:
       return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);

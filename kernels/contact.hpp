@@ -14,6 +14,8 @@
 //                 Smith, Comp. Part. Mech. 5 (2018) 285-296). The gap compares current and first mean positions,
 //                 delta_n = n.(x_below - x_above) - n0.(X_below - X_above),
 //                 0 for every rigid motion, the jump of displacement for small rotations, negative in compression.
+//                 Beyond 0.2 cells nothing touches: no face closes that far in a stable step, but a field of next to no
+//                 mass may have any velocity.
 // Stopping faces at a distance instead would let them creep together by one stop after another, each a loss of energy;
 // ignoring the gap until it is negative would leave them a whole step's approach inside each other.
 //

@@ -349,8 +349,8 @@ TEST(ContactKernel, IsTheSameToTheBitInEverySpaceAndOnAnyNumberOfThreads) {
   }
 }
 
-/// Upper half moves down at 1 m/s, lower half rests.
-void approach(Setting& s) {
+/// Upper half moves down at `speed` in m/s, lower half rests.
+void approach(Setting& s, double speed = 1) {
   s.grid.q.resize(4 * s.grid.mass.size());
   s.grid.q.zero();
   for (long i = 0; i < s.fields.nodes.size(); ++i) {
@@ -359,11 +359,12 @@ void approach(Setting& s) {
       continue;
     const bool crossing_above = n.side[0] == Side::above;
     const long slot = crossing_above ? s.lattice.nodes() + s.fields.extra[n.node] : n.node;
-    s.grid.q[4 * slot + 1] = -1;
+    s.grid.q[4 * slot + 1] = -speed;
   }
 }
 
-ContactReport touch(double jump, ContactDetection by, ContactLaw law = ContactLaw::frictionless, double J = 1) {
+ContactReport touch(double jump, ContactDetection by, ContactLaw law = ContactLaw::frictionless, double J = 1,
+                    double speed = 1) {
   const Map open = [=](Vec2 X) { return X.y > 12.3 ? X + Vec2{0, jump} : X; };
   const Map plane = [=](Vec2 X) { return X + Vec2{0, 0.5 * jump}; };
   Setting s = make_setting({level}, open, plane, law);
@@ -371,7 +372,7 @@ ContactReport touch(double jump, ContactDetection by, ContactLaw law = ContactLa
     a = J;
   sum(s, exec::Space());
   set_masses(s);
-  approach(s);
+  approach(s, speed);
   ContactReport report;
   ContactRules rules;
   rules.detection = by;
@@ -390,6 +391,9 @@ TEST(ContactKernel, DisplacementDetectionWaitsUntilTheGapCloses) {
     EXPECT_GT(closed.touching, 0);
     EXPECT_NEAR(closed.penetration, 1e-3, 1e-12);
   }
+  // however fast the faces approach, none touches across more than 0.2 cells
+  EXPECT_GT(touch(0.19, ContactDetection::displacement, ContactLaw::frictionless, 1, 1e3).touching, 0);
+  EXPECT_EQ(touch(0.21, ContactDetection::displacement, ContactLaw::frictionless, 1, 1e3).touching, 0);
   const ContactReport closing = touch(0.009, ContactDetection::displacement);
   EXPECT_GT(closing.touching, 0);
   EXPECT_NEAR(closing.gap, 0.009, 1e-12);
