@@ -20,7 +20,7 @@ inline constexpr int tile_reach = Lattice::tile + 2 * tile_margin;
 template <class Body>
 void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const Body& body) {
   exec::parallel_tasks(space, label, static_cast<long>(tiles.by_colour.size()),
-                       [&, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
+                       [body, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
                          body(list[t], long{start[list[t]]}, long{start[list[t] + 1]});
                        });
 }
@@ -73,12 +73,12 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     for (int colour = 0; colour < 4; ++colour) {
       const int* some = list + tiles.colour_start[colour];
       exec::launch(space, tiles.colour_start[colour + 1] - tiles.colour_start[colour],
-                   [&](long t) { body(some[t], long{start[some[t]]}, long{start[some[t] + 1]}, whole); });
+                   [=](long t) { body(some[t], long{start[some[t]]}, long{start[some[t] + 1]}, whole); });
     }
     return;
   }
   const bool shared = space.threads() > 1;
-  exec::launch(space, static_cast<long>(tiles.by_colour.size()), [&](long t) {
+  exec::launch(space, static_cast<long>(tiles.by_colour.size()), [=](long t) {
     const int tile = list[t];
     const int corner_x = tile % lattice.tiles_x() * Lattice::tile - tile_margin;
     const int corner_y = tile / lattice.tiles_x() * Lattice::tile - tile_margin;

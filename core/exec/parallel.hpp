@@ -14,7 +14,8 @@ namespace riven::exec {
 /// multiply-adds in one and not in another, and the last bits differ.
 template <class F>
 RIVEN_ONCE void run_task(const F& f, long i) {
-  f(i);
+  const F task = f;  // a copy of its own: what a kernel writes cannot change what it captured
+  task(i);
 }
 
 /// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
