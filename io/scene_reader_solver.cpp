@@ -27,7 +27,7 @@ void read_solver(const Table& root, Scene& s) {
   s.cfl = t.number("cfl", Range{0, 2, true}, s.cfl);
   s.dt_max = t.quantity("dt_max", dimension::time, range::positive, s.dt_max, "none");
   s.deterministic = t.flag("deterministic", s.deterministic);
-  s.scatter = t.choice("scatter", std::optional(s.deterministic ? ScatterKind::ordered : s.scatter));
+  s.scatter = t.choice("scatter", std::optional(s.scatter));
   if (s.deterministic && s.scatter != ScatterKind::ordered)
     t.refuse("scatter", "a deterministic run needs ordered scatter", "ordered", "leave the key 'scatter' out");
   s.exec = t.choice("exec", std::optional(s.exec));

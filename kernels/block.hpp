@@ -47,7 +47,7 @@ struct Block {
   RIVEN_INLINE void weigh_each(const Positions<Real>& p, long first, const DomainOf& domain_of) {
     const Real* x = p.x + first;
     const Real* y = p.y + first;
-    exec::for_lanes(lanes, [&](int k) {
+    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const DomainSetting<Real, 2>& d = domain_of(first + k);
       const Axis<Real, N> a = Shape::axis((x[k] - p.origin_x) * p.inv_h, d.axis[0]);
       const Axis<Real, N> b = Shape::axis((y[k] - p.origin_y) * p.inv_h, d.axis[1]);

@@ -63,7 +63,7 @@ struct StepNumbers {
 template <class Real>
 RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
                                 const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
-  exec::for_lanes(count, [&](int k) {
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
     const Real vx = p.vx[i], vy = p.vy[i];
     const Real ax = m.ax[k] - n.damping * vx, ay = m.ay[k] - n.damping * vy;
@@ -108,7 +108,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
         for (int k = 0; k < count; ++k)
           gather_motion<Stress, High>(w, k, q, high, nx, 0, extra, high_gradient, motion, gradient);
       update_motion(p, first, count, motion, n, dx, dy, seen);
-      exec::for_lanes(count, [&](int k) {
+      exec::for_lanes(count, [&](int k) RIVEN_LANE {
         p.x[first + k] += dx[k];
         p.y[first + k] += dy[k];
       });

@@ -25,7 +25,7 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                         for (long first = begin; first < end; first += L) {
                           const int count = static_cast<int>(std::min<long>(L, end - first));
                           w.weigh(at, first);
-                          exec::for_lanes(L, [&](int k) {
+                          exec::for_lanes(L, [&](int k) RIVEN_LANE {
                             m[k] = p.mass[first + k];
                             px[k] = m[k] * p.vx[first + k];
                             py[k] = m[k] * p.vy[first + k];

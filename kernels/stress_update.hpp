@@ -24,7 +24,7 @@ namespace detail {
 template <class Law, class Real, class LawOf>
 RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
                                      Real dt, const LawOf& law_of, TileWatch<Real>& seen) {
-  exec::for_lanes(count, [&](int k) {
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
     LawState<Real> s;
     s.xx = p.sxx[i];

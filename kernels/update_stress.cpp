@@ -84,7 +84,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
       w.weigh(at, first);
       gather_gradients<Cracked>(w, first, count, again, nx, extra, gradient);
       update_stress_lanes(p, first, count, gradient, step, law, seen);
-      exec::for_lanes(count, [&](int k) {
+      exec::for_lanes(count, [&](int k) RIVEN_LANE {
         p.x[first + k] += p.step_x[first + k];
         p.y[first + k] += p.step_y[first + k];
       });

@@ -81,7 +81,7 @@ std::vector<Entrant> methods() {
           transferred("xpic(2)", Transfer::xpic, 2),
           swirling("linear", cells, [](Scene& s) { s.shape = ShapeFunction::linear; }),
           swirling("bspline", cells, [](Scene& s) { s.shape = ShapeFunction::bspline; }),
-          swirling("ordered", cells, [](Scene& s) { s.scatter = ScatterKind::ordered; })};
+          swirling("atomic", cells, [](Scene& s) { s.scatter = ScatterKind::atomic; })};
 }
 
 /// Uniform stretch along y of a plate of the given size, its ends moving at the grips' velocity.

@@ -5,12 +5,12 @@
 #if defined(__CUDACC__)
 #define RIVEN_FN __host__ __device__
 #define RIVEN_INLINE __host__ __device__ __forceinline__
-#define RIVEN_LAMBDA __host__ __device__
+#define RIVEN_LANE
 #define RIVEN_OUTLINE __host__ __device__ inline
 #else
 #define RIVEN_FN
 #define RIVEN_INLINE __attribute__((always_inline)) inline
-#define RIVEN_LAMBDA
+#define RIVEN_LANE __attribute__((always_inline))       // bodies of for_lanes: without it they are called lane by lane
 #define RIVEN_OUTLINE __attribute__((noinline)) inline  // rare paths, kept out of the loops that matter
 #endif
 

@@ -1,6 +1,7 @@
 // A counting iterator for std::execution algorithms (C++20's iota view has one, but its iterators are
 // not Cpp17RandomAccess and libstdc++'s parallel algorithms would run them serially).
 #pragma once
+#include <compare>
 #include <iterator>
 
 namespace riven::exec {
@@ -26,7 +27,8 @@ struct Counting {
   friend Counting operator+(long d, Counting a) { return {a.i + d}; }
   friend Counting operator-(Counting a, long d) { return {a.i - d}; }
   friend long operator-(Counting a, Counting b) { return a.i - b.i; }
-  friend auto operator<=>(Counting a, Counting b) = default;
+  friend std::strong_ordering operator<=>(Counting a, Counting b) { return a.i <=> b.i; }
+  friend bool operator==(Counting a, Counting b) = default;
 };
 
 }  // namespace riven::exec

@@ -175,7 +175,7 @@ TEST(ReadScene, WhatIsNotSaidIsListedWithItsDefault) {
 
 TEST(ReadScene, DeterministicMeansOrderedScatter) {
   EXPECT_EQ(read(good_scene, {"solver.deterministic=true"}).scatter, ScatterKind::ordered);
-  EXPECT_EQ(read(good_scene).scatter, ScatterKind::atomic);
+  EXPECT_EQ(read(good_scene, {"solver.scatter=atomic"}).scatter, ScatterKind::atomic);
   const Trouble t = trouble_of(good_scene, {"solver.deterministic=true", "solver.scatter=atomic"});
   EXPECT_NE(t.what.find("deterministic"), std::string::npos);
 }
