@@ -34,7 +34,7 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
       s.F = {p.Fxx[i], p.Fxy[i], p.Fyx[i], p.Fyy[i]};
     else
       s.J = p.J[i];
-    law_of(i).update(exp_small(Mat2<Real>{dt * g.xx[k], dt * g.xy[k], dt * g.yx[k], dt * g.yy[k]}), s);
+    law_of(i).update(exp_minus_identity(Mat2<Real>{dt * g.xx[k], dt * g.xy[k], dt * g.yx[k], dt * g.yy[k]}), s);
     p.sxx[i] = s.xx;
     p.syy[i] = s.yy;
     p.sxy[i] = s.xy;

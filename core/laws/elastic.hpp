@@ -3,7 +3,7 @@
 //
 // A law offers
 //   keeps_F                        whether it needs the deformation gradient, or only its determinant
-//   update(dF, state)              takes the state through the deformation increment dF
+//   update(G, state)               takes the state through the deformation increment dF = I + G
 //   energy(state)                  strain energy per mass, J/kg
 //   wave_speed(state)              fastest small wave in the present state, m/s
 //   thickness_ratio(J)             F33 for an in-plane area ratio J
@@ -35,7 +35,7 @@ inline Elasticity elasticity(const Material& m) {
 }
 
 /// Isotropic linear elasticity between co-rotated Kirchhoff stress and logarithmic strain, in rate form:
-///   tau <- R (tau + lambda tr(dU - I) I + 2 mu (dU - I)) R^T,   dF = R dU,
+///   tau <- R (tau + lambda tr(dU - I) I + 2 mu (dU - I)) R^T,   I + G = R dU,
 /// objective for increments of any rotation (Hughes and Winget 1980, with the exact polar decomposition).
 /// In plane stress lambda is replaced by 2 lambda mu / (lambda + 2 mu).
 template <class Real>
@@ -55,10 +55,11 @@ struct LinearElastic {
     zz = Real(stress ? 0 : e.nu);
   }
 
-  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
-    const Rotation<Real> R = polar_rotation(dF);
-    const Real exx = R.c * dF.xx + R.s * dF.yx - Real(1), eyy = R.c * dF.yy - R.s * dF.xy - Real(1);
-    const Real exy = R.c * dF.xy + R.s * dF.yy, tr = lambda * (exx + eyy);
+  RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
+    const Rotation<Real> R = polar_rotation(G);
+    // dU - I, in sums that have no unity in them; dU is symmetric, and its two shears are averaged
+    const Real exx = R.c_minus_1 + R.c * G.xx + R.s * G.yx, eyy = R.c_minus_1 + R.c * G.yy - R.s * G.xy;
+    const Real exy = Real(0.5) * (R.c * (G.xy + G.yx) + R.s * (G.yy - G.xx)), tr = lambda * (exx + eyy);
     const Real xx = p.xx + tr + Real(2) * mu * exx, yy = p.yy + tr + Real(2) * mu * eyy, xy = p.xy + Real(2) * mu * exy;
     // R (..) R^T about the mean stress, which does not turn
     const Real mean = Real(0.5) * (xx + yy), dev = Real(0.5) * (xx - yy);
@@ -67,7 +68,7 @@ struct LinearElastic {
     p.xx = mean + turned;
     p.yy = mean - turned;
     p.xy = s2 * dev + c2 * xy;
-    p.J *= det(dF);
+    p.J += p.J * growth(G);
   }
   RIVEN_INLINE Real energy(const LawState<Real>& p) const {
     const Real tr = (p.xx + p.yy) / (Real(2) * (lambda + mu)), a = Real(1) / (Real(2) * mu);
@@ -101,8 +102,8 @@ struct NeoHookean {
   RIVEN_INLINE Real thickness_squared(Real J2) const {
     return (Real(2) * mu + thinning) / (Real(2) * mu + thinning * J2 * J2);
   }
-  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
-    const Mat2<Real> F = dF * p.F;
+  RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
+    const Mat2<Real> F = p.F + G * p.F;
     p.F = F;
     p.J = det(F);
     const Real J2 = p.J * p.J, pressure = Real(0.5) * lambda * (J2 * thickness_squared(p.J) - Real(1));
@@ -145,10 +146,10 @@ struct AnyElastic {
   AnyElastic(const Material& m, Plane plane)
       : linear(m, plane), neo(m, plane), is_linear(m.law == LawKind::linear_elastic) {}
 
-  RIVEN_INLINE void update(const Mat2<Real>& dF, LawState<Real>& p) const {
+  RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
     LawState<Real> a = p;
-    linear.update(dF, a);
-    neo.update(dF, p);
+    linear.update(G, a);
+    neo.update(G, p);
     p.xx = is_linear ? a.xx : p.xx;
     p.yy = is_linear ? a.yy : p.yy;
     p.xy = is_linear ? a.xy : p.xy;

@@ -17,31 +17,44 @@ RIVEN_INLINE Mat2<Real> operator*(const Mat2<Real>& a, const Mat2<Real>& b) {
 }
 
 template <class Real>
+RIVEN_INLINE Mat2<Real> operator+(const Mat2<Real>& a, const Mat2<Real>& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.yx + b.yx, a.yy + b.yy};
+}
+
+template <class Real>
 RIVEN_INLINE Real det(const Mat2<Real>& a) {
   return a.xx * a.yy - a.xy * a.yx;
 }
 
-/// exp(A) for a small A = dt grad v, to fourth order in |A|. With s = tr A / 2 and q = s^2 - det A,
+/// exp(A) - I for a small A = dt grad v, to fourth order in |A|. With s = tr A / 2 and q = s^2 - det A,
 ///   exp(A) = e^s [ cosh(sqrt q) I + sinh(sqrt q)/sqrt q (A - s I) ]      (Cayley-Hamilton)
-/// Keeps det and rotations to O(|A|^5), where I + A stretches a rotating body by |A|^2 / 2 in every step.
+/// Keeps det and rotations to O(|A|^5), where I + A stretches a rotating body by |A|^2 / 2 in every step. Without the
+/// identity, whose last bit is some 1e-13 of the strain that a stiff solid bears, small strains keep all their digits.
 template <class Real>
-RIVEN_INLINE Mat2<Real> exp_small(const Mat2<Real>& A) {
+RIVEN_INLINE Mat2<Real> exp_minus_identity(const Mat2<Real>& A) {
   const Real s = Real(0.5) * (A.xx + A.yy), q = s * s - det(A);
-  const Real e = Real(1) + s * (Real(1) + s * (Real(0.5) + s * (Real(1) / 6 + s * (Real(1) / 24))));
-  const Real c = e * (Real(1) + q * (Real(0.5) + q * (Real(1) / 24)));
-  const Real d = e * (Real(1) + q * (Real(1) / 6 + q * (Real(1) / 120)));
+  const Real e = s * (Real(1) + s * (Real(0.5) + s * (Real(1) / 6 + s * (Real(1) / 24))));  // e^s - 1
+  const Real c = e + (Real(1) + e) * (q * (Real(0.5) + q * (Real(1) / 24)));
+  const Real d = (Real(1) + e) * (Real(1) + q * (Real(1) / 6 + q * (Real(1) / 120)));
   return {c + d * (A.xx - s), d * A.xy, d * A.yx, c + d * (A.yy - s)};
 }
 
-/// F = R U: cosine and sine of the rotation R.
+/// det(I + G) - 1.
+template <class Real>
+RIVEN_INLINE Real growth(const Mat2<Real>& G) {
+  return G.xx + G.yy + det(G);
+}
+
+/// I + G = R U: cosine, sine, and cosine - 1 of the rotation R.
 template <class Real>
 struct Rotation {
-  Real c, s;
+  Real c, s, c_minus_1;
 };
 template <class Real>
-RIVEN_INLINE Rotation<Real> polar_rotation(const Mat2<Real>& F) {
-  const Real a = F.xx + F.yy, b = F.yx - F.xy, inv = Real(1) / std::sqrt(a * a + b * b);
-  return {a * inv, b * inv};
+RIVEN_INLINE Rotation<Real> polar_rotation(const Mat2<Real>& G) {
+  const Real a = Real(2) + G.xx + G.yy, b = G.yx - G.xy, r = std::sqrt(a * a + b * b);
+  const Real share = Real(1) / (r * (a + r)), inv = share * (a + r);  // 1 / r, by the same division
+  return {a * inv, b * inv, -b * b * share};
 }
 
 }  // namespace riven

@@ -59,7 +59,7 @@ void spin(LawKind law, Plane plane, ShapeFunction shape) {
     with_law<double>(m.plan.law, [&](auto type) {
       using Law = typename decltype(type)::type;
       LawState<double> q0{{1, 0, 0, 1}, 1, 0, 0, 0};
-      Law(s.materials[0], plane).update({1 + strain.xx, strain.xy, strain.yx, 1 + strain.yy}, q0);
+      Law(s.materials[0], plane).update(strain, q0);
       p.stress[0][i] = q0.xx;
       p.stress[1][i] = q0.yy;
       p.stress[2][i] = q0.xy;
