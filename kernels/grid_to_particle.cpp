@@ -65,13 +65,13 @@ RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int cou
                                 const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
-    const Real vx = p.vx[i], vy = p.vy[i];
-    const Real ax = m.ax[k] - n.damping * vx, ay = m.ay[k] - n.damping * vy;
-    dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * ax);
-    dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * ay);
+    const Real vx = p.vx[i], vy = p.vy[i], bx = n.damping * vx, by = n.damping * vy;
+    // the grid's velocity is that after its acceleration, before the particle's damping
+    dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * (m.ax[k] + bx));
+    dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * (m.ay[k] + by));
     seen.moves(k, dx[k], dy[k]);
-    p.vx[i] = n.keep * (vx + n.dt * ax) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k] - n.dt * n.damping * vx);
-    p.vy[i] = n.keep * (vy + n.dt * ay) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k] - n.dt * n.damping * vy);
+    p.vx[i] = n.keep * (vx + n.dt * m.ax[k]) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k]) - n.dt * bx;
+    p.vy[i] = n.keep * (vy + n.dt * m.ay[k]) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k]) - n.dt * by;
   });
 }
 

@@ -85,6 +85,35 @@ TEST(RigidTranslation, MakesNoStressInACrackedBody) {
     }
 }
 
+/// v' = -kappa v: v falls to exp(-kappa t), the way is (v0 - v) / kappa, as far as steps of 0.01 / kappa can tell.
+TEST(RigidTranslation, SlowsDownUnderEitherDampingAsOneBody) {
+  for (const bool particles : {false, true})
+    for (const StressUpdate update : updates) {
+      Scene s = flying_block(LawKind::linear_elastic);
+      s.stress_update = update;
+      s.dt_max = 1e-3;
+      const double kappa = 0.01 / s.dt_max;
+      (particles ? s.particle_damping : s.grid_damping) = constant(kappa);
+      const exec::Space space;
+      Simulation m(s, space);
+      const auto& p = m.state.particles;
+      const double v0 = p.v[0][0], x0 = p.x[0][0];
+      const int id = p.id[0];
+      while (m.state.clock.step < 100)
+        m.step();
+      const long i = std::find(p.id.begin(), p.id.end(), id) - p.id.begin();
+      ASSERT_DOUBLE_EQ(m.state.clock.dt, s.dt_max);
+      SCOPED_TRACE(testing::Message() << name_of(update) << (particles ? " particles" : " grid"));
+      EXPECT_NEAR(p.v[0][i], v0 * std::pow(0.99, 100), 1e-10 * v0);
+      // each step moves the particle by the mean of its velocities before and after
+      EXPECT_NEAR(p.x[0][i] - x0, (v0 - p.v[0][i]) / kappa * (1 - 0.005), 1e-10);
+      EXPECT_LT(largest_stress(m, 1000), 1e-10 * 1e6);
+      m.take_stock();
+      EXPECT_LT(std::abs(m.state.ledger.energy.relative_error()), 1e-12);
+      EXPECT_LT(m.state.ledger.momentum.error(), 1e-12);
+    }
+}
+
 /// 1000 steps of a cracked block that spins and pulsates, its crack faces beating.
 void beat(const Scene& scene, bool cracked) {
   const exec::Space space;
