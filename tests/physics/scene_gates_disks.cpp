@@ -210,7 +210,9 @@ struct Look {
 
 struct FiveDisks {
   double arrival = 0, noise = 0;  ///< t c / D of the front in disk 5; standard deviation of sxx there before, over peak
-  double tip[2]{}, beside[2]{};   ///< fringes at the tips, and at the same places of disk 2
+  double tip[2]{};                ///< fringes within D / 10 of the tips when the front arrives
+  double same[2]{},
+      mirror[2]{};  ///< at the same places of disk 2, and at their images across where disks 2 and 3 touch
   long touching_steps = 0;
   double overlap = 0;
 };
@@ -242,8 +244,10 @@ FiveDisks run_five_disks(const std::vector<std::string>& settings) {
     const Cracks& k = m.state.cracks;
     const Vec2 ends[2] = {k.plane[0], k.plane[k.points() - 1]};
     for (int e = 0; e < 2; ++e) {
-      r.tip[e] = look.fringes(ends[e], 3 * scene.cell);
-      r.beside[e] = look.fringes(ends[e] - Vec2{diameter, 0}, 3 * scene.cell);
+      const double reach = diameter / 10;
+      r.tip[e] = look.fringes(ends[e], reach);
+      r.same[e] = look.fringes(ends[e] - Vec2{diameter, 0}, reach);
+      r.mirror[e] = look.fringes({4 * diameter - ends[e].x, ends[e].y}, reach);
     }
   }
   return r;
@@ -264,21 +268,38 @@ TEST(FiveDisks, FrontArrivesWithoutNoiseAhead) {
 }
 
 TEST(FiveDisks, TipsGatherFringesAndDifferFromEachOther) {
-  const FiveDisks& r = five_disks();
+  const FiveDisks &r = five_disks(), whole = run_five_disks({"contact.law=bonded"});
   for (int e = 0; e < 2; ++e) {
-    report(fmt::format("five disks, fringes at the {} tip over those at the same place of disk 2",
-                       e == 0 ? "left" : "right"),
-           r.tip[e] / r.beside[e], "> 1");
-    EXPECT_GT(r.tip[e], r.beside[e]) << e;
+    report(fmt::format("five disks, fringes at the {} tip over those without a crack", e == 0 ? "left" : "right"),
+           r.tip[e] / whole.tip[e], "2");
+    EXPECT_GE(r.tip[e], 2 * whole.tip[e]) << e;
   }
   report("five disks, difference of the tips' fringes", std::abs(r.tip[0] / r.tip[1] - 1), "> 0.01");
   EXPECT_GT(std::abs(r.tip[0] / r.tip[1] - 1), 0.01);
 }
 
-/// The wave has passed disk 2 with more fringes than reach the crack: its tips gather 1.1 and 1.3 times as many.
-TEST(FiveDisks, DISABLED_TipsGatherTwiceTheFringes) {
-  for (int e = 0; e < 2; ++e)
-    EXPECT_GE(five_disks().tip[e], 2 * five_disks().beside[e]) << e;
+/// Why the disk without a crack is the measure, and not disk 2: there the fringes of the points of contact and of a
+/// wave one diameter further on cross the same places. Neither here nor on a finer grid do both tips have twice as
+/// many.
+TEST(FiveDisks, NoProportionToTheFringesOfDiskTwoHolds) {
+  const FiveDisks fine = run_five_disks({"grid.cell=0.423333333333 mm"});
+  int grid = 30;
+  for (const FiveDisks& r : {five_disks(), fine}) {
+    double least[2] = {9, 9};
+    for (int e = 0; e < 2; ++e) {
+      least[0] = std::min(least[0], r.tip[e] / r.same[e]);
+      least[1] = std::min(least[1], r.tip[e] / r.mirror[e]);
+      report(fmt::format("five disks, D / {}, fringes at the {} tip over those at the same place of disk 2", grid,
+                         e == 0 ? "left" : "right"),
+             r.tip[e] / r.same[e], "-");
+      report(fmt::format("five disks, D / {}, fringes at the {} tip over those at its image in disk 2", grid,
+                         e == 0 ? "left" : "right"),
+             r.tip[e] / r.mirror[e], "-");
+    }
+    EXPECT_LT(least[0], 2);
+    EXPECT_LT(least[1], 2);
+    grid *= 2;
+  }
 }
 
 TEST(FiveDisks, FacesMeet) {
@@ -286,17 +307,64 @@ TEST(FiveDisks, FacesMeet) {
   EXPECT_GT(five_disks().touching_steps, 0);
 }
 
-/// Half of the overlap without contact: by symmetry what a half model's face moves beyond the mid-plane. It cannot be
-/// more than the crack opens under the largest stress that the impact makes, 2 s a / E with s = rho c V: 8e-6 m.
-TEST(FiveDisks, FacesOverlapWithoutContact) {
-  const FiveDisks r = run_five_disks({"contact.law=ignored"});
-  const double beyond = 0.5 * r.overlap, stress = 1900 * 9593 * 6, bound = 2 * stress * diameter / 4 / 174860e6;
-  report("five disks without contact, face beyond the mid-plane, m", beyond, fmt::format("> 0, < {:.3g}", bound));
-  report("five disks, overlap with contact over that without", five_disks().overlap / r.overlap, "< 1");
-  EXPECT_GT(beyond, 0);
-  EXPECT_LT(beyond, bound);
-  EXPECT_LT(bound, 0.05 * diameter / 30);
-  EXPECT_LT(five_disks().overlap, r.overlap);
+/// How far the face of the crack moves in the upper half of the disks alone, the mid-plane fixed but for the crack.
+struct HalfModel {
+  double lowest = 0, highest = 0;  ///< m
+};
+
+HalfModel run_upper_halves() {
+  const exec::Space space(exec::Kind::serial, 1);
+  Scene scene = shipped("five_disks");
+  const Rectangle crack{scene.cracks[0].points.front(), scene.cracks[0].points.back()};
+  scene.cracks.clear();
+  scene.probes.clear();
+  for (Body& b : scene.bodies)
+    b.holes.push_back(Rectangle{scene.grid.lower, {scene.grid.upper.x, 0}});
+  const Rectangle sides[2] = {{{scene.grid.lower.x, 0}, crack.lower}, {crack.upper, {scene.grid.upper.x, 0}}};
+  for (const Rectangle& side : sides) {
+    FixedNodes middle;
+    middle.name = "middle";
+    middle.box = side;
+    middle.velocity[1] = TimeFunction{};
+    scene.fixed.push_back(middle);
+  }
+  Simulation m(scene, space);
+  const Lattice& l = m.state.grid.lattice;
+  std::map<int, double> height;  // of each node of the face
+  for (int n = 0; n < l.nodes(); ++n)
+    if (const Vec2 x = l.position(n); std::abs(x.y) < 1e-6 * scene.cell && x.x > crack.lower.x && x.x < crack.upper.x)
+      height[n] = 0;
+  HalfModel r;
+  while (!m.finished()) {
+    m.step();
+    for (auto& [n, y] : height) {
+      y += m.state.clock.dt * m.state.grid.q[4L * n + 1];
+      r.lowest = std::min(r.lowest, y);
+      r.highest = std::max(r.highest, y);
+    }
+  }
+  return r;
+}
+
+/// "An analysis of half the specimen develops nonphysical crack surface displacements as the crack surface
+/// displacements extend past the mid-plane": the half model shows it, and the whole one without contact shows the same
+/// twice. How far is set by the impact, whatever the grid: the face never moves by more than 2 s a / E, s = rho c V,
+/// 8e-6 m to either side, or 0.01 cells of D / 30.
+TEST(FiveDisks, HalfModelPassesTheMidPlane) {
+  const HalfModel half = run_upper_halves();
+  const double whole = run_five_disks({"contact.law=ignored"}).overlap, h = diameter / 30;
+  const double stress = 1900 * 9593 * 6, bound = 2 * stress * diameter / 4 / 174860e6;
+  report("five disks, half model, face beyond the mid-plane, m", -half.lowest, "> 0");
+  report("five disks, half model, face beyond the mid-plane, cells", -half.lowest / h, "-");
+  report("five disks, half model, largest opening of the face, cells", half.highest / h, "-");
+  report("five disks without contact, half the overlap over the half model's", 0.5 * whole / -half.lowest,
+         "0.7 to 1.3");
+  report("five disks, overlap with contact over that without", five_disks().overlap / whole, "< 0.5");
+  EXPECT_LT(half.lowest, -1e-9);
+  EXPECT_LT(std::max(-half.lowest, half.highest), bound);
+  EXPECT_LT(bound, 0.05 * h);
+  EXPECT_NEAR(0.5 * whole, -half.lowest, 0.3 * -half.lowest);
+  EXPECT_LT(five_disks().overlap, 0.5 * whole);
 }
 
 }  // namespace
