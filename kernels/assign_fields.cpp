@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <climits>
+#include <utility>
 
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
+#include "kernels/cells_around.hpp"
 #include "kernels/trace_crossings.hpp"
 
 namespace riven {
@@ -20,8 +22,16 @@ Vec2 unit(const std::int64_t* fixed) {
   return length > 0 ? n * (1 / length) : Vec2{};
 }
 
-/// Which cracks a node holds, and what a crossing of each entry means. Leaves the sums at zero for the next step.
-void hold_cracks(CrackFields& fields, long f) {
+/// Tells the tiles whose particles may see the node that its cracks have changed.
+void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
+  each_tile_around(lattice, node, 1, [&](int tile) {
+    if (const int m = fields.tile_marked[tile])
+      std::atomic_ref<int>(fields.tiles[m - 1].changed).store(1, std::memory_order_relaxed);
+  });
+}
+
+/// Which cracks a node holds, and what a crossing of each entry means. Returns whether that has changed.
+bool hold_cracks(const Lattice& lattice, CrackFields& fields, long f) {
   NodeCracks& node = fields.nodes[f];
   const int first = fields.candidate_start[f], last = fields.candidate_start[f + 1];
   int most[2] = {-1, -1}, count[2] = {0, 0};
@@ -37,96 +47,101 @@ void hold_cracks(CrackFields& fields, long f) {
       count[1] = n;
     }
   }
-  if (most[0] < 0 && node.crack[0] < 0)
-    return;
-  const int number = node.node;
-  node = NodeCracks{};
-  node.node = number;
-  if (most[0] < 0)
-    return;
   if (most[1] >= 0 && most[1] < most[0])
     std::swap(most[0], most[1]);
-  for (int c = first; c < last; ++c)
-    fields.verdict[2 * c] = fields.verdict[2 * c + 1] = third_crack;
-  for (int m = 0; m < 2 && most[m] >= 0; ++m) {
-    const int above = 2 * most[m], below = above + 1;
-    const bool from_above = fields.tally[above] >= fields.tally[below];
-    const std::int64_t* sum = fields.tally_normal.data() + 4L * (from_above ? above : below);
-    node.crack[m] = fields.candidate[most[m]];
-    node.side[m] = from_above ? Side::above : Side::below;
+  NodeCracks now;
+  now.node = node.node;
+  bool changed = false;
+  int held = 0;
+  for (int c = first; c < last; ++c) {
+    const int above = 2 * c, below = above + 1;
+    std::uint8_t means[2] = {third_crack, third_crack};
+    if (held < 2 && c == most[held]) {
+      const bool from_above = fields.tally[above] >= fields.tally[below];
+      now.crack[held] = fields.candidate[c];
+      now.side[held] = from_above ? Side::above : Side::below;
+      means[from_above ? 0 : 1] = static_cast<std::uint8_t>(1 << held);
+      means[from_above ? 1 : 0] = other_side;
+      ++held;
+    }
+    for (int side = 0; side < 2; ++side) {
+      changed = changed || fields.verdict[above + side] != means[side];
+      fields.verdict[above + side] = means[side];
+    }
+  }
+  node = now;
+  if ((held > 0) != (fields.held[f] > 0))
+    each_cell_seeing(lattice, node.node, [&](long cell) {
+      exec::atomic_add(fields.cell_held[cell], static_cast<std::uint8_t>(held > 0 ? 1 : -1));
+    });
+  fields.held[f] = static_cast<std::uint8_t>(held);
+  return changed;
+}
+
+/// Mean normals of the cracks that a node holds, over their crossings from the side that it sees.
+void average_normals(CrackFields& fields, long f) {
+  NodeCracks& node = fields.nodes[f];
+  int c = fields.candidate_start[f];
+  for (int m = 0; m < fields.held[f]; ++m) {
+    while (fields.candidate[c] != node.crack[m])
+      ++c;
+    std::int64_t sum[4] = {0, 0, 0, 0};
+    for (int s = fields.segment_start[c]; s < fields.segment_start[c + 1]; ++s) {
+      const std::int64_t times = fields.share[2 * s + (node.side[m] == Side::below)];
+      if (times == 0)
+        continue;
+      const std::int64_t* normal = fields.segment_normal.data() + 4L * fields.node_segment[s];
+      for (int k = 0; k < 4; ++k)
+        sum[k] += times * normal[k];
+    }
     node.normal[m] = unit(sum);
     node.normal0[m] = unit(sum + 2);
-    fields.verdict[from_above ? above : below] = static_cast<std::uint8_t>(1 << m);
-    fields.verdict[from_above ? below : above] = other_side;
-  }
-  for (int e = 2 * first; e < 2 * last; ++e) {
-    if (fields.tally[e] == 0)
-      continue;
-    fields.tally[e] = 0;
-    for (int c = 0; c < 4; ++c)
-      fields.tally_normal[4L * e + c] = 0;
   }
 }
 
-/// Warnings of one kind: how many, and the first by particle number and neighbour.
-struct Warnings {
-  long count = 0;
-  int id = INT_MAX;
-  CrossingRecord record{};
-  void add(int particle_id, const CrossingRecord& r) {
-    ++count;
-    keep_first(particle_id, r);
+/// f(particle, record) for the records of each particle of a tile that weigh.
+template <class F>
+void each_record(const CrackFields& fields, long first, long last, const F& f) {
+  for (long p = first; p < last; ++p) {
+    const CrossingMemory& m = fields.memory[p];
+    for (int r = m.first; r < m.first + m.count; ++r)
+      if (fields.records[r].weighs && fields.records[r].leads)
+        f(p, fields.records[r]);
   }
-  void keep_first(int particle_id, const CrossingRecord& r) {
-    if (particle_id > id || (particle_id == id && r.neighbour >= record.neighbour))
-      return;
-    id = particle_id;
-    record = r;
-  }
-};
+}
 
-struct BothWarnings {
-  Warnings kind[2];
-};
-
-void clear_last(const exec::Space& space, long particles, CrackFields& fields) {
-  if (fields.fields.size() != particles) {
-    fields.fields.resize(particles);
-    fields.fields.zero();
-    return;
-  }
-  exec::launch(space, fields.chunk_count, [&](long c) {
-    const RecordChunk chunk = fields.chunks[c];
-    for (long r = chunk.begin; r < chunk.begin + chunk.count; ++r)
-      std::atomic_ref<std::uint32_t>(fields.fields[fields.records[r].particle]).store(0, std::memory_order_relaxed);
+/// The fields of a tile's particles.
+void set_fields(CrackFields& fields, TileTrace& tile, long first, long last) {
+  std::fill(fields.fields.begin() + first, fields.fields.begin() + last, 0u);
+  tile.warnings[0] = tile.warnings[1] = 0;
+  tile.changed = 0;
+  each_record(fields, first, last, [&](long p, const CrossingRecord& r) {
+    const std::uint8_t verdict = fields.verdict[r.entry];
+    if (verdict < other_side)
+      fields.fields[p] |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * r.neighbour);
+    else
+      ++tile.warnings[verdict == third_crack];
   });
 }
 
-BothWarnings set_fields(CrackFields& fields, RecordChunk chunk, const int* id, bool shared) {
-  BothWarnings warnings;
-  std::uint32_t word = 0;
-  const auto store = [&](int particle) {
-    // the records of one particle may be in two chunks
-    if (shared)
-      std::atomic_ref<std::uint32_t>(fields.fields[particle]).fetch_or(word, std::memory_order_relaxed);
-    else
-      fields.fields[particle] |= word;
-    word = 0;
-  };
-  for (long r = chunk.begin; r < chunk.begin + chunk.count; ++r) {
-    const CrossingRecord& record = fields.records[r];
-    if (r > chunk.begin && fields.records[r - 1].particle != record.particle)
-      store(fields.records[r - 1].particle);
-    if (!record.weighs)
+/// The node of the first warning of a kind, by particle number and neighbour.
+template <class Real>
+Vec2 first_warning(const CrackFields& fields, const Particles<Real, 2>& particles, const Lattice& lattice, int kind) {
+  std::pair<int, int> first{INT_MAX, 0};
+  int node = 0;
+  for (long m = 0; m < fields.tiles.size(); ++m) {
+    if (fields.tiles[m].warnings[kind] == 0)
       continue;
-    const std::uint8_t verdict = fields.verdict[record.entry];
-    if (verdict < other_side)
-      word |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * record.neighbour);
-    else
-      warnings.kind[verdict == third_crack].add(id[record.particle], record);
+    const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
+    each_record(fields, start[0], start[1], [&](long p, const CrossingRecord& r) {
+      const std::pair<int, int> here{particles.id[p], r.neighbour};
+      if (fields.verdict[r.entry] != (kind == 0 ? other_side : third_crack) || !(here < first))
+        return;
+      first = here;
+      node = fields.nodes[r.node].node;
+    });
   }
-  store(fields.records[chunk.begin + chunk.count - 1].particle);
-  return warnings;
+  return lattice.position(node);
 }
 
 }  // namespace
@@ -134,35 +149,36 @@ BothWarnings set_fields(CrackFields& fields, RecordChunk chunk, const int* id, b
 template <class Shape, class Real>
 void determine_fields(const exec::Space& space, const Particles<Real, 2>& particles,
                       const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
-                      CrackFields& fields) {
-  clear_last(space, particles.count(), fields);
-  trace_crossings<Shape, Real>(space, particles, domains, lattice, cracks, fields);
-  exec::parallel_for(space, "assign fields", fields.nodes.size(), [&](long f) { hold_cracks(fields, f); });
-
-  std::vector<BothWarnings> warned(static_cast<size_t>(fields.chunk_count));
-  exec::parallel_tasks(space, "assign fields", fields.chunk_count, [&](long c) {
-    warned[static_cast<size_t>(c)] = set_fields(fields, fields.chunks[c], particles.id.data(), space.threads() > 1);
+                      CrackFields& fields, const double* tile_move) {
+  trace_crossings<Shape, Real>(space, particles, domains, lattice, cracks, tile_move, fields);
+  exec::parallel_for(space, "assign fields", fields.nodes.size(), [&](long f) {
+    if (fields.recount[f]) {
+      fields.recount[f] = 0;
+      if (hold_cracks(lattice, fields, f))
+        mark_changed(lattice, fields.nodes[f].node, fields);
+    }
+    average_normals(fields, f);
+  });
+  exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
+    const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
+    if (fields.tiles[m].changed)
+      set_fields(fields, fields.tiles[m], start[0], start[1]);
   });
   long* const total[2] = {&fields.warning_both_sides, &fields.warning_third_crack};
   for (int kind = 0; kind < 2; ++kind) {
-    Warnings all;
-    for (const BothWarnings& w : warned) {
-      all.count += w.kind[kind].count;
-      all.keep_first(w.kind[kind].id, w.kind[kind].record);
-    }
-    if (all.count > 0 && *total[kind] == 0) {
-      const auto it =
-          std::upper_bound(fields.candidate_start.begin(), fields.candidate_start.end(), all.record.entry / 2);
-      fields.warning_place[kind] = lattice.position(fields.nodes[it - fields.candidate_start.begin() - 1].node);
-    }
-    *total[kind] += all.count;
+    long count = 0;
+    for (const TileTrace& t : fields.tiles)
+      count += t.warnings[kind];
+    if (count > 0 && *total[kind] == 0)
+      fields.warning_place[kind] = first_warning(fields, particles, lattice, kind);
+    *total[kind] += count;
   }
 }
 
 #define RIVEN_DETERMINE(Shape, Real)                                                                        \
   template void determine_fields<Shape, Real>(const exec::Space&, const Particles<Real, 2>&,                \
                                               const DomainSetting<Real, 2>*, const Lattice&, const Cracks&, \
-                                              CrackFields&);
+                                              CrackFields&, const double*);
 RIVEN_DETERMINE(Linear, double)
 RIVEN_DETERMINE(UGimp, double)
 RIVEN_DETERMINE(BSpline, double)

@@ -16,10 +16,11 @@
 namespace riven {
 
 /// Trace and assign: fills `nodes` and `fields` from the present positions. The hash must not be due. Particles are
-/// sorted by tiles, from which they have moved by one cell at most. `domains`: [bodies].
+/// sorted by tiles, from which they have moved by one cell at most. `domains`: [bodies]. `tile_move`: see
+/// trace_crossings.hpp.
 template <class Shape, class Real>
 void determine_fields(const exec::Space& space, const Particles<Real, 2>& particles,
                       const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
-                      CrackFields& fields);
+                      CrackFields& fields, const double* tile_move = nullptr);
 
 }  // namespace riven

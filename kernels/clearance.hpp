@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/math/vec.hpp"
+#include "core/state/crack_fields.hpp"
 
 namespace riven {
 
@@ -20,6 +21,21 @@ RIVEN_INLINE double distance2(Vec2 q, Vec2 a, Vec2 b) {
   const double t = length2 > 0 ? std::min(1.0, std::max(0.0, dot(r, d) / length2)) : 0;
   const Vec2 off = r - t * d;
   return dot(off, off);
+}
+
+/// A move of q, a and b by less than this leaves q on the same side of the line through a and b: their turning is
+/// magnified by the distance of q in lengths of a-b.
+RIVEN_INLINE double line_clearance(Vec2 q, Vec2 a, Vec2 b) {
+  const double length = norm(b - a), far = norm(q - a);
+  return length > 0 ? 0.5 * std::fabs(cross(b - a, q - a)) / (length + 2 * far) : 0;
+}
+
+/// Sides of a followed node: the signs of the areas of its segments with the node, and that of their turn.
+RIVEN_INLINE int pack_sides(int first, int second, int turn) {
+  return (first + 1) + 3 * (second + 1) + 9 * (turn + 1);
+}
+RIVEN_INLINE bool on_line(const NodeClearance& c) {
+  return c.sides % 3 == 1 || (c.joined && c.sides / 3 % 3 == 1);
 }
 
 }  // namespace riven

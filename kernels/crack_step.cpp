@@ -22,7 +22,7 @@ void find_fields(Simulation& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
     determine_fields<typename decltype(shape)::type>(m.space, s.particles, s.domains.data(), s.grid.lattice, s.cracks,
-                                                     s.fields);
+                                                     s.fields, s.watch.tile_move.data());
   });
 }
 

@@ -1,4 +1,4 @@
-// Collects the crossings that one task finds, and hands them over to the common array.
+// Keeps the crossings of every particle, and what they add to the sums of its nodes.
 #pragma once
 #include <algorithm>
 
@@ -7,47 +7,80 @@
 
 namespace riven {
 
-class Recorder {
+class CrossingRecords {
  public:
-  /// Largest number of records of one particle that are sure to stay together.
-  static constexpr int together = 64;
+  /// `shared`: other threads change the sums too.
+  CrossingRecords(CrackFields& fields, bool shared) : fields_(fields), shared_(shared) {}
 
-  /// `records` and `chunks` count what all tasks have handed over.
-  Recorder(CrackFields& fields, long& records, long& chunks) : fields_(fields), records_(records), chunks_(chunks) {}
-
-  void begin_particle() {
-    if (size - used_ < together)
-      flush();
-  }
+  void begin_particle() { count_ = 0; }
+  int count() const { return count_; }
   void add(const CrossingRecord& record) {
-    if (used_ == size)
-      flush();
-    record_[used_++] = record;
+    if (count_ == fresh_.size())
+      fresh_.resize(2 * fresh_.size() + 32);
+    fresh_[count_++] = record;
   }
 
-  /// Past the end of the common array nothing is written, but the demand is counted, so that the caller can make room
-  /// and trace again.
-  void flush() {
-    if (used_ == 0)
-      return;
-    const long begin = exec::atomic_add(records_, long{used_}), chunk = exec::atomic_add(chunks_, 1L);
-    if (begin + used_ <= fields_.records.size() && chunk < fields_.chunks.size()) {
-      std::copy(record_, record_ + used_, fields_.records.data() + begin);
-      fields_.chunks[chunk] = {begin, used_};
-      for (int r = 0; r < used_; ++r)
-        if (r == 0 || record_[r].particle != record_[r - 1].particle)
-          fields_.memory[record_[r].particle].first = static_cast<int>(begin + r);
+  /// Makes what was added since begin_particle() the records of the particle. Returns whether that changes anything.
+  /// Past the end of the common array nothing is written, but `used` counts the demand, so that the caller can make
+  /// room and trace again.
+  bool replace(CrossingMemory& m) {
+    CrossingRecord* at = fields_.records.data() + m.first;
+    if (count_ == m.count && std::equal(at, at + count_, fresh_.begin()))
+      return false;
+    for (int r = 0; r < m.count; ++r)
+      count(at[r], -1);
+    m.count = 0;
+    if (count_ > m.room) {
+      const long first = shared_ ? exec::atomic_add(fields_.used, long{count_}) : (fields_.used += count_) - count_;
+      if (first + count_ > fields_.records.size())
+        return true;
+      m.first = static_cast<int>(first);
+      m.room = count_;
+      at = fields_.records.data() + first;
     }
-    used_ = 0;
+    m.count = count_;
+    std::copy(fresh_.begin(), fresh_.begin() + count_, at);
+    for (int r = 0; r < count_; ++r)
+      count(at[r], 1);
+    return true;
+  }
+
+  /// Counts those records of the particle whose nodes it has a weight on by now, and no others. Returns whether there
+  /// was anything to change.
+  bool weigh(const CrossingMemory& m) {
+    bool changed = false;
+    for (int i = m.first; i < m.first + m.count; ++i) {
+      CrossingRecord& r = fields_.records[i];
+      const std::uint8_t now = m.weighed >> r.neighbour & 1u;
+      if (now == r.weighs)
+        continue;
+      changed = true;
+      count(r, -1);
+      r.weighs = now;
+      count(r, 1);
+    }
+    return changed;
   }
 
  private:
-  static constexpr int size = 512;
+  void count(const CrossingRecord& r, int times) {
+    if (!r.weighs)
+      return;
+    into(fields_.tally[r.entry], times * r.leads);
+    into(fields_.share[r.share], times * r.sign);
+    std::atomic_ref<std::uint8_t>(fields_.recount[r.node]).store(1, std::memory_order_relaxed);
+  }
+  void into(int& sum, int value) const {
+    if (shared_)
+      exec::atomic_add(sum, value);
+    else
+      sum += value;
+  }
+
   CrackFields& fields_;
-  long& records_;
-  long& chunks_;
-  int used_ = 0;
-  CrossingRecord record_[size];
+  bool shared_;
+  int count_ = 0;
+  exec::Array<CrossingRecord> fresh_;
 };
 
 }  // namespace riven

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
+#include "kernels/cells_around.hpp"
 
 namespace riven {
 
@@ -85,41 +88,60 @@ void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks
   exec::launch(space, used, [&](long u) { std::sort(segment + bins.start[u], segment + bins.start[u + 1]); });
 }
 
-void mark_tiles(const Lattice& lattice, CrackFields& fields) {
+/// Tiles that can reach a marked cell, and the cracks that are seen there.
+void mark_tiles(const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.tile_marked.resize(lattice.tiles_x() * lattice.tiles_y());
   fields.tile_marked.zero();
-  // particles may have drifted by one cell since they were sorted into their tile
-  const auto tile = [](int cell, int n) { return std::clamp(cell, 0, n - 1) / Lattice::tile; };
-  for (int cell : fields.cells) {
-    const int i = cell % lattice.nx, j = cell / lattice.nx;
-    for (int ty = tile(j - 1, lattice.ny); ty <= tile(j + 1, lattice.ny); ++ty)
-      for (int tx = tile(i - 1, lattice.nx); tx <= tile(i + 1, lattice.nx); ++tx)
-        fields.tile_marked[ty * lattice.tiles_x() + tx] = 1;
-  }
+  std::vector<std::pair<int, int>> seen;  // tile, crack
+  for (long c = 0; c < fields.cells.size(); ++c)
+    each_tile_around(lattice, fields.cells[c], 0, [&](int tile) {
+      fields.tile_marked[tile] = 1;
+      for (int s = fields.cell_start[c]; s < fields.cell_start[c + 1]; ++s) {
+        const std::pair<int, int> here{tile, cracks.crack[fields.cell_segment[s]]};
+        if (seen.empty() || seen.back() != here)
+          seen.push_back(here);
+      }
+    });
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   fields.marked_tiles.resize(fields.tile_marked.size());
   int used = 0;
   for (int t = 0; t < fields.tile_marked.size(); ++t)
-    if (fields.tile_marked[t])
+    if (fields.tile_marked[t]) {
       fields.marked_tiles[used++] = t;
+      fields.tile_marked[t] = used;
+    }
   fields.marked_tiles.resize(used);
+  fields.tile_crack_start.resize(used + 1);
+  fields.tile_crack_start.zero();
+  fields.tile_crack.resize(static_cast<long>(seen.size()));
+  for (size_t k = 0; k < seen.size(); ++k) {
+    ++fields.tile_crack_start[fields.tile_marked[seen[k].first]];
+    fields.tile_crack[static_cast<long>(k)] = seen[k].second;
+  }
+  for (int m = 0; m < used; ++m)
+    fields.tile_crack_start[m + 1] += fields.tile_crack_start[m];
 }
 
 /// Candidate cracks of each node from the segments near it, and the extra slots that they ask for.
 void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::Array<int>& node,
-                     const exec::Array<int>& start, const exec::Array<int>& segment, CrackFields& fields) {
+                     const exec::Array<int>& start, CrackFields& fields) {
   const long flagged = node.size();
   fields.nodes.resize(flagged);
   fields.candidate_start.resize(flagged + 1);
-  fields.candidate.resize(segment.size());
+  fields.candidate.resize(fields.node_segment.size());
+  fields.segment_start.resize(fields.node_segment.size() + 1);
   fields.extra.resize(lattice.nodes());
   std::memset(fields.extra.data(), 0xff, static_cast<size_t>(lattice.nodes()) * sizeof(int));
   int total = 0, slots = 0;
   for (long f = 0; f < flagged; ++f) {
     const int first = total;
     for (int s = start[f]; s < start[f + 1]; ++s) {
-      const int c = cracks.crack[segment[s]];
-      if (total == first || fields.candidate[total - 1] != c)
-        fields.candidate[total++] = c;
+      const int c = cracks.crack[fields.node_segment[s]];
+      if (total != first && fields.candidate[total - 1] == c)
+        continue;
+      fields.segment_start[total] = s;
+      fields.candidate[total++] = c;
     }
     fields.nodes[f] = NodeCracks{};
     fields.nodes[f].node = node[f];
@@ -128,7 +150,9 @@ void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::A
     slots += total - first == 1 ? 1 : 3;
   }
   fields.candidate_start[flagged] = total;
+  fields.segment_start[total] = start[flagged];
   fields.candidate.resize(total);
+  fields.segment_start.resize(total + 1);
   fields.extra_slots = slots;
 }
 
@@ -154,18 +178,22 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   constexpr Reach cell = wide ? Reach{-1, 1, 1} : Reach{0, 1, 1};
   constexpr Reach node = wide ? Reach{-1.5, 1.5, 0} : Reach{-1, 1, 0};
   fill(space, lattice, cracks, cell, {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
-  mark_tiles(lattice, fields);
-  exec::Array<int> flagged, start, segment;
-  fill(space, lattice, cracks, node, {fields.node_index, flagged, start, segment});
-  list_candidates(lattice, cracks, flagged, start, segment, fields);
+  mark_tiles(lattice, cracks, fields);
+  exec::Array<int> flagged, start;
+  fill(space, lattice, cracks, node, {fields.node_index, flagged, start, fields.node_segment});
+  list_candidates(lattice, cracks, flagged, start, fields);
 
   fields.tally.resize(2 * fields.candidate.size());
-  fields.tally_normal.resize(4 * fields.tally.size());
+  fields.share.resize(2 * fields.node_segment.size());
   fields.verdict.resize(fields.tally.size());
-  fields.tally.zero();
-  fields.tally_normal.zero();
+  fields.held.resize(fields.nodes.size());
+  fields.held.zero();
+  fields.cell_held.resize(lattice.nodes());
+  fields.cell_held.zero();
+  fields.recount.resize(fields.nodes.size());
+  fields.clearance.resize(fields.nodes.size());
   fields.hashed = cracks.plane;
-  ++fields.stamp;
+  fields.order = -1;
 }
 
 template void hash_cracks<Linear>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);

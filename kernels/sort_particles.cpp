@@ -98,7 +98,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
     else
       permute(space, a, spare_byte, order.data());
   });
-  s.fields.fields.zero();
+  ++p.tiles.order;
   colour(l, p.tiles);
   for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite})
     a->resize(tiles);

@@ -1,53 +1,136 @@
 #include "kernels/trace_crossings.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <vector>
+#include <limits>
 
 #include "core/exec/parallel.hpp"
+#include "kernels/cells_around.hpp"
 #include "kernels/tracer.hpp"
 
 namespace riven {
 
 namespace {
 
-/// Unit normals of all segments, from above to below, in fixed point; and the move of the points since the last trace.
-void follow_cracks(const exec::Space& space, const Cracks& cracks, CrackFields& fields) {
-  const long points = cracks.points(), chunks = (points + exec::chunk - 1) / exec::chunk;
-  fields.segment_normal.resize(4 * points);
-  if (fields.traced.size() != points)
-    fields.traced = cracks.plane;
-  std::vector<double> moved(static_cast<size_t>(chunks));
-  exec::launch(space, chunks, [&](long c) {
-    const long end = std::min(points, (c + 1) * exec::chunk);
-    double most2 = 0;
+/// Forgets all crossings, after a hash, a sort, or when room ran out.
+void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& fields) {
+  fields.memory.resize(particles);
+  fields.limit.resize(particles);
+  fields.turned.resize(nodes);
+  fields.block_limit.resize(particles / exec::lanes + fields.marked_tiles.size() + 1);
+  fields.tiles.resize(fields.marked_tiles.size());
+  fields.segment_normal.resize(4L * cracks.points());
+  fields.crack_move.resize(cracks.count());
+  fields.traced = cracks.plane;
+  fields.fields.resize(particles);
+  fields.memory.zero();
+  fields.limit.zero();
+  fields.block_limit.zero();
+  fields.tiles.zero();
+  for (TileTrace& t : fields.tiles)
+    t.changed = 1;
+  fields.fields.zero();
+  fields.tally.zero();
+  fields.share.zero();
+  std::fill(fields.recount.begin(), fields.recount.end(), std::uint8_t{1});
+  fields.used = 0;
+}
+
+/// Fixed-point unit normal of the segment that starts at a point, from above to below.
+void put_normal(const Vec2* point, std::int64_t* to) {
+  const Vec2 d = point[1] - point[0];
+  const double length = norm(d), scale = length > 0 ? CrackFields::unit / length : 0;
+  to[0] = static_cast<std::int64_t>(d.y * scale);
+  to[1] = static_cast<std::int64_t>(-d.x * scale);
+}
+
+/// Normals of all segments, those of the first positions if `first` says so.
+void follow_normals(const exec::Space& space, const Cracks& cracks, bool first, CrackFields& fields) {
+  exec::launch(space, (cracks.points() - 1 + exec::chunk - 1) / exec::chunk, [&](long c) {
+    const long end = std::min(cracks.points() - 1L, (c + 1) * exec::chunk);
     for (long k = c * exec::chunk; k < end; ++k) {
+      put_normal(cracks.plane.data() + k, fields.segment_normal.data() + 4 * k);
+      if (first)
+        put_normal(cracks.plane0.data() + k, fields.segment_normal.data() + 4 * k + 2);
+    }
+  });
+}
+
+/// Moves of the cracks since the last trace.
+void follow_moves(const exec::Space& space, const Cracks& cracks, CrackFields& fields) {
+  exec::launch(space, cracks.count(), [&](long c) {
+    double most2 = 0;
+    for (int k = cracks.start[static_cast<size_t>(c)]; k < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
       const Vec2 move = cracks.plane[k] - fields.traced[k];
       most2 = std::max(most2, dot(move, move));
       fields.traced[k] = cracks.plane[k];
-      if (k + 1 == points)
-        continue;
-      std::int64_t* to = fields.segment_normal.data() + 4 * k;
-      for (const Vec2* at : {cracks.plane.data() + k, cracks.plane0.data() + k}) {
-        const Vec2 d = at[1] - at[0];
-        const double length = norm(d), scale = length > 0 ? CrackFields::unit / length : 0;
-        *to++ = static_cast<std::int64_t>(d.y * scale);
-        *to++ = static_cast<std::int64_t>(-d.x * scale);
-      }
     }
-    moved[static_cast<size_t>(c)] = std::sqrt(most2);
+    fields.crack_move[c] = std::sqrt(most2);
   });
-  if (!moved.empty())
-    fields.travel += *std::max_element(moved.begin(), moved.end());
+  double most = 0;
+  for (const double move : fields.crack_move)
+    most = std::max(most, move);
+  fields.travel += most;
 }
 
-/// Makes the arrays of the last trace those to be read, and of at least the same size those to be written.
-void turn_over(long particles, CrackFields& fields) {
-  ++fields.stamp;
-  fields.memory.resize(particles);
-  fields.records.swap(fields.last_records);
-  if (fields.records.size() < fields.last_records.size())
-    fields.records.resize(fields.last_records.size());
+/// Nearer than this (in cells) to a segment, nodes are followed by their sides.
+constexpr double near_cells = 0.02;
+
+/// Distance of a node from its segments, and which of them it is next to. Next to any but one or two joined ones it is
+/// not followed.
+void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, long f, NodeClearance& c) {
+  const Vec2 x = lattice.position(fields.nodes[f].node);
+  const double near2 = near_cells * near_cells * lattice.h * lattice.h;
+  double least2 = std::numeric_limits<double>::max(), others2 = least2;
+  int count = 0, segment[2] = {-1, -1};
+  const int end = fields.segment_start[fields.candidate_start[f + 1]];
+  for (int s = fields.segment_start[fields.candidate_start[f]]; s < end; ++s) {
+    const int k = fields.node_segment[s];
+    const double d2 = distance2(x, cracks.plane[k], cracks.plane[k + 1]);
+    least2 = std::min(least2, d2);
+    if (d2 >= near2)
+      others2 = std::min(others2, d2);
+    else if (count++ < 2)
+      segment[count - 1] = k;
+  }
+  const bool joined =
+      count == 2 && segment[1] == segment[0] + 1 && cracks.crack[segment[0]] == cracks.crack[segment[1]];
+  const bool followed = count == 1 || joined;
+  c.measured = std::sqrt(followed ? others2 : least2);
+  c.travel = fields.travel;
+  c.near = followed ? segment[0] : -1;
+  c.joined = joined;
+}
+
+/// Keeps the distance of a node from the cracks below the true one, and measures it again once they have moved by a
+/// good part of it. Returns whether the node has come to another side of a segment that it is next to, or next to
+/// another.
+bool follow_node(const Lattice& lattice, const Cracks& cracks, CrackFields& fields, long f, bool afresh) {
+  NodeClearance& c = fields.clearance[f];
+  const NodeClearance before = c;
+  if (afresh || fields.travel - c.travel > std::max(0.25 * c.measured, 0.1 * near_cells * lattice.h))
+    measure_node(lattice, cracks, fields, f, c);
+  c.now = std::max(0., c.measured - (fields.travel - c.travel));
+  if (c.near >= 0) {
+    const Vec2* at = cracks.plane.data() + c.near;
+    const Vec2 x = lattice.position(fields.nodes[f].node);
+    c.sides = c.joined ? pack_sides(orientation(at[0], at[1], x), orientation(at[1], at[2], x),
+                                    orientation(at[0], at[1], at[2]))
+                       : pack_sides(orientation(at[0], at[1], x), 0, 0);
+  }
+  return !afresh && (before.near != c.near || before.joined != c.joined || (c.near >= 0 && before.sides != c.sides));
+}
+
+/// Has all particles traced that see this node.
+void mark_turned(const Lattice& lattice, int node, CrackFields& fields) {
+  each_cell_seeing(lattice, node, [&](long cell) {
+    std::atomic_ref<int>(fields.turned[cell]).store(fields.traces, std::memory_order_relaxed);
+  });
+  each_tile_around(lattice, node, 1, [&](int tile) {
+    if (const int m = fields.tile_marked[tile])
+      std::atomic_ref<int>(fields.tiles[m - 1].turned).store(1, std::memory_order_relaxed);
+  });
 }
 
 }  // namespace
@@ -55,41 +138,37 @@ void turn_over(long particles, CrackFields& fields) {
 template <class Shape, class Real>
 void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particles,
                      const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
-                     CrackFields& fields) {
+                     const double* tile_move, CrackFields& fields) {
   const exec::Stopwatch watch(space.timers(), "trace crossings");
-  follow_cracks(space, cracks, fields);
-  turn_over(particles.count(), fields);
+  const bool afresh = fields.order != particles.tiles.order || fields.memory.size() != particles.count();
+  if (afresh)
+    begin_anew(particles.count(), lattice.nodes(), cracks, fields);
+  fields.order = particles.tiles.order;
+  ++fields.traces;
+  follow_normals(space, cracks, afresh, fields);
+  follow_moves(space, cracks, fields);
+  exec::launch(space, (fields.nodes.size() + exec::chunk - 1) / exec::chunk, [&](long c) {
+    const long end = std::min(fields.nodes.size(), (c + 1) * exec::chunk);
+    for (long f = c * exec::chunk; f < end; ++f)
+      if (follow_node(lattice, cracks, fields, f, afresh))
+        mark_turned(lattice, fields.nodes[f].node, fields);
+  });
+  const bool shared = space.threads() > 1;
+  const TraceInput<Real> input{particles, domains, lattice, cracks, tile_move};
   for (;;) {
-    long records = 0, chunks = 0;
-    const TraceInput<Real> input{particles, domains, lattice, cracks};
-    const TallyTarget target{fields.tally.data(), fields.tally_normal.data(), space.threads() > 1};
-    exec::launch(space, fields.marked_tiles.size(), [&](long m) {
-      const int tile = fields.marked_tiles[m];
-      const long first = particles.tiles.start[tile], last = particles.tiles.start[tile + 1];
-      if (first == last)
-        return;
-      Recorder recorder(fields, records, chunks);
-      LocalTally tally(target);
-      Tracer<Shape, Real>(input, fields, recorder, tally).trace(first, last);
-      recorder.flush();
-      tally.flush();
-    });
-    fields.chunk_count = chunks;
-    if (records <= fields.records.size() && chunks <= fields.chunks.size())
+    exec::launch(space, fields.marked_tiles.size(),
+                 [&](long marked) { Tracer<Shape, Real>(input, fields, shared).tile(marked); });
+    if (fields.used <= fields.records.size())
       return;
-    // start afresh with room enough: memories may already point into what was not written
-    fields.records.resize(records + records / 4);
-    fields.chunks.resize(chunks + chunks / 4);
-    fields.tally.zero();
-    fields.tally_normal.zero();
-    fields.stamp += 2;
+    fields.records.resize(fields.used + fields.used / 2);
+    begin_anew(particles.count(), lattice.nodes(), cracks, fields);
   }
 }
 
 #define RIVEN_TRACE(Shape, Real)                                                                           \
   template void trace_crossings<Shape, Real>(const exec::Space&, const Particles<Real, 2>&,                \
                                              const DomainSetting<Real, 2>*, const Lattice&, const Cracks&, \
-                                             CrackFields&);
+                                             const double*, CrackFields&);
 RIVEN_TRACE(Linear, double)
 RIVEN_TRACE(UGimp, double)
 RIVEN_TRACE(BSpline, double)

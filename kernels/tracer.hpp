@@ -1,4 +1,4 @@
-// Traces the particles of one tile after another.
+// Traces the particles of one marked tile.
 #pragma once
 #include <bit>
 #include <limits>
@@ -11,7 +11,6 @@
 #include "kernels/clearance.hpp"
 #include "kernels/crossing_paths.hpp"
 #include "kernels/crossing_records.hpp"
-#include "kernels/local_tally.hpp"
 
 namespace riven {
 
@@ -22,81 +21,145 @@ struct TraceInput {
   const DomainSetting<Real, 2>* domains;  ///< [bodies]
   const Lattice& lattice;
   const Cracks& cracks;
+  const double* tile_move;  ///< [tiles] m, how far particles moved along an axis since the trace before; may be null
 };
 
 template <class Shape, class Real>
 class Tracer {
  public:
-  Tracer(const TraceInput<Real>& input, CrackFields& fields, Recorder& recorder, LocalTally& tally)
-      : in_(input), fields_(fields), recorder_(recorder), tally_(tally), inv_h_(1 / input.lattice.h) {}
+  Tracer(const TraceInput<Real>& input, CrackFields& fields, bool shared)
+      : in_(input),
+        fields_(fields),
+        records_(fields, shared),
+        inv_h_(1 / input.lattice.h),
+        rounding_(input.lattice.h * std::max(1e-9, 8. * std::numeric_limits<Real>::epsilon() *
+                                                       std::max(input.lattice.nx, input.lattice.ny))) {}
 
-  /// Particles first .. last - 1.
-  void trace(long first, long last) {
-    for (long block = first; block < last; block += exec::lanes) {
-      int cell[exec::lanes];
-      cells_of(block, cell);
-      int seen = -1;
-      for (int k = 0; k < exec::lanes; ++k)
-        seen &= fields_.cell_index[cell[k]];
-      if (seen == -1)
-        continue;  // the index of every cell is -1
-      const long count = std::min<long>(exec::lanes, last - block);
-      for (int k = 0; k < count; ++k)
-        if (fields_.cell_index[cell[k]] >= 0)
-          particle(block + k, cell[k]);
+  /// All particles of a marked tile that may have come to cross something else.
+  void tile(long marked) {
+    tile_ = &fields_.tiles[marked];
+    const int t = fields_.marked_tiles[marked];
+    const long first = in_.particles.tiles.start[t], last = in_.particles.tiles.start[t + 1];
+    const bool moves_known = in_.tile_move != nullptr;
+    follow(marked, moves_known ? in_.tile_move[t] : 0);
+    if (moves_known && !tile_->turned && tile_->path < tile_->limit)
+      return;
+    tile_->limit = never;
+    double* limit = fields_.block_limit.data() + (first / exec::lanes + marked);
+    for (long block = first; block < last; block += exec::lanes, ++limit) {
+      if (!moves_known || tile_->turned || !(tile_->path < *limit))
+        *limit = look(block, std::min(last, block + exec::lanes), moves_known);
+      tile_->limit = std::min(tile_->limit, *limit);
     }
+    tile_->turned = 0;
   }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::max();
   static constexpr int width = Shape::width;
   static constexpr int nodes = width * width;
 
-  /// The crossings of one crack on the path to one node, and the sum of its normals turned along the path.
-  struct Found {
-    CrossingSum sum;
-    int segment = 0;
-    std::int64_t normal[4] = {0, 0, 0, 0};
+  /// A segment that the path to one node crosses: +1 from above, -1 from below.
+  struct Hit {
+    int neighbour, segment, sign;
   };
 
   Real place_x(long p) const { return (in_.particles.x[0][p] - Real(in_.lattice.origin.x)) * Real(inv_h_); }
   Real place_y(long p) const { return (in_.particles.x[1][p] - Real(in_.lattice.origin.y)) * Real(inv_h_); }
 
-  /// Cells of a whole block of particles. A particle that has left the grid (reported by those who move it) is put
-  /// into a cell at the edge, and those see no cracks.
-  void cells_of(long block, int* cell) const {
-    const int nx = in_.lattice.nx, ny = in_.lattice.ny;
-    for (int k = 0; k < exec::lanes; ++k) {
-      int i = Shape::cell(place_x(block + k)), j = Shape::cell(place_y(block + k));
-      i = i < 0 ? 0 : i;
-      j = j < 0 ? 0 : j;
-      i = i >= nx ? nx - 1 : i;
-      j = j >= ny ? ny - 1 : j;
-      cell[k] = j * nx + i;
-    }
+  /// Adds the moves since the last trace to the tile's sums. Along an axis a move is at most sqrt(2) times shorter.
+  void follow(long marked, double particle_move) const {
+    double most = 0;
+    for (int c = fields_.tile_crack_start[marked]; c < fields_.tile_crack_start[marked + 1]; ++c)
+      most = std::max(most, fields_.crack_move[fields_.tile_crack[c]]);
+    if (most > 0)  // however little
+      tile_->travel = std::max(tile_->travel + most, std::nextafter(tile_->travel, never));
+    tile_->path += (most + 1.4143 * particle_move) * (1 + 1e-9) + 1e-6 * rounding_;
   }
 
-  void particle(long p, int cell) {
+  /// Looks at particles first .. last - 1; returns the path of the tile up to which none of them needs to be looked at
+  /// again.
+  double look(long first, long last, bool moves_known) {
+    double least = never;
+    for (long p = first; p < last; ++p) {
+      if (!moves_known || tile_->turned || !(tile_->path < fields_.limit[p]))
+        fields_.limit[p] = keep(p, moves_known);
+      least = std::min(least, fields_.limit[p]);
+    }
+    return least;
+  }
+
+  /// Brings the records of one particle up to date; returns how long they will be.
+  double keep(long p, bool moves_known) {
     CrossingMemory& m = fields_.memory[p];
     const Vec2 x{double(in_.particles.x[0][p]), double(in_.particles.x[1][p])};
-    weighed_ = 0;
-    recorder_.begin_particle();
-    if (m.stamp == fields_.stamp - 1 && m.id == in_.particles.id[p] && m.cell == cell &&
-        norm(x - m.x) + (fields_.travel - m.travel) < m.clear) {
-      m.stamp = fields_.stamp;
-      for (int r = m.first; r < m.first + m.count; ++r)
-        repeat(p, fields_.last_records[r]);
-      return;
+    double used = norm(x - m.x) + (tile_->travel - m.travel);
+    const bool turned = tile_->turned && m.cell >= 0 && fields_.turned[m.cell] == fields_.traces;
+    if (!m.known || turned || !(used < m.clear || used == 0)) {
+      m.known = 1;
+      m.x = x;
+      m.travel = tile_->travel;
+      used = 0;
+      trace(p, m);
+    } else if (!moves_known || !(tile_->path < m.weighs)) {
+      weigh(p, m);
     }
-    m = {fields_.stamp, in_.particles.id[p], cell, 0, 0, 0, fields_.travel, x};
-    trace_all(p, m);
+    return std::min(m.weighs, tile_->path + (m.clear - used));
   }
 
-  void repeat(long p, CrossingRecord record) {
-    record.particle = static_cast<int>(p);
-    record.weighs = weighs(p, record.neighbour);
-    recorder_.add(record);
-    if (record.weighs)
-      tally_.add(record.entry, fields_.segment_normal.data() + 4L * record.segment);
+  /// Number of the cell of a particle, or -1. One that has left the grid is reported by those who move it.
+  int cell_of(Real X, Real Y) const {
+    const int i = Shape::cell(X), j = Shape::cell(Y);
+    return i < 1 || j < 1 || i >= in_.lattice.nx - 1 || j >= in_.lattice.ny - 1 ? -1 : j * in_.lattice.nx + i;
+  }
+
+  bool cracks_around(int cell) const {
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (fields_.cell_index[cell + j * in_.lattice.nx + i] >= 0)
+          return true;
+    return false;
+  }
+
+  void trace(long p, CrossingMemory& m) {
+    records_.begin_particle();
+    const Real X = place_x(p), Y = place_y(p);
+    m.cell = cell_of(X, Y);
+    m.clear = 0;
+    m.weighs = never;
+    if (m.cell >= 0) {
+      const double inside = in_.lattice.h * double(std::min(Shape::to_next_cell(X), Shape::to_next_cell(Y)));
+      if (fields_.cell_index[m.cell] >= 0) {
+        clear2_ = inside * inside;
+        trace_all(p, m);
+        m.clear = (1 - 1e-9) * std::sqrt(clear2_) - rounding_;
+      } else {
+        m.clear = inside - rounding_ + (cracks_around(m.cell) ? 0 : in_.lattice.h);
+      }
+    }
+    if (records_.replace(m))
+      tile_->changed = 1;
+    if (m.count > 0)
+      m.weighs = weights_stay(p);
+  }
+
+  /// Sees whether the particle has come to have a weight on nodes where it had none, or the other way round.
+  void weigh(long p, CrossingMemory& m) {
+    if (m.count == 0)
+      return;
+    const unsigned before = m.weighed;
+    m.weighed = nodes_weighed(p);
+    m.weighs = weights_stay(p);
+    if (m.weighed != before && records_.weigh(m))
+      tile_->changed = 1;
+  }
+
+  /// Path of the tile up to which the particle has weights on the same nodes.
+  double weights_stay(long p) const {
+    const DomainSetting<Real, 2>& domain = in_.domains[in_.particles.body[p]];
+    return tile_->path - rounding_ +
+           in_.lattice.h * double(std::min(Shape::to_other_weights(place_x(p), domain.axis[0]),
+                                           Shape::to_other_weights(place_y(p), domain.axis[1])));
   }
 
   void trace_all(long p, CrossingMemory& m) {
@@ -105,51 +168,44 @@ class Tracer {
     const Paths<Shape> paths(m.x, m.cell % nx - before, m.cell / nx - before, in_.lattice, inv_h_);
     const int* segment = fields_.cell_segment.data() + fields_.cell_start[seen];
     const int* const last = fields_.cell_segment.data() + fields_.cell_start[seen + 1];
-    clear2_ = node_clearance2(paths, m.cell, {segment, static_cast<int>(last - segment)});
+    m.weighed = nodes_weighed(p);
+    weighed_ = m.weighed;
+    take_node_clearance(paths);
     while (segment < last) {
       const int crack = in_.cracks.crack[*segment], end = in_.cracks.start[static_cast<size_t>(crack) + 1];
       int count = static_cast<int>(last - segment);
       if (segment[count - 1] >= end)
         count = static_cast<int>(std::lower_bound(segment, last, end) - segment);
-      trace_crack(p, m, paths, crack, {segment, count});
+      trace_crack(paths, crack, {segment, count});
       segment += count;
     }
-    // less a little for rounding, and nothing where the records may be torn apart
-    if (m.count <= Recorder::together)
-      m.clear = (1 - 1e-9) * std::sqrt(clear2_) - 1e-9 * in_.lattice.h;
   }
 
-  void trace_crack(long p, CrossingMemory& m, const Paths<Shape>& paths, int crack, SegmentList list) {
+  void trace_crack(const Paths<Shape>& paths, int crack, SegmentList list) {
     constexpr int batch = Paths<Shape>::batch;
-    unsigned touched = 0;
+    hits_ = 0;
+    CrossingSum sum[nodes];
     for (int s = 0; s < list.count; s += batch) {
       const SegmentList part{list.segment + s, std::min(batch, list.count - s)};
       Masks bits[Paths<Shape>::groups];
       if (!paths.may_cross(part, in_.cracks.plane.data(), inv_h_, bits))
         continue;
-      for (int k = 0; k < nodes; ++k) {
-        const auto some = static_cast<std::uint32_t>(bits[k / float_lanes][k % float_lanes]);
-        if (!some)
-          continue;
-        if (!(touched >> k & 1u))
-          found_[k] = Found{};
-        touched |= 1u << k;
-        test(paths, k, crack, part, some);
-      }
+      for (int k = 0; k < nodes; ++k)
+        if (const auto some = static_cast<std::uint32_t>(bits[k / float_lanes][k % float_lanes]))
+          test(paths, k, crack, part, some, sum[k]);
     }
     unsigned crossed = 0;
-    for (; touched; touched &= touched - 1) {
-      const int k = std::countr_zero(touched);
-      if (found_[k].sum.side() == Side::none)
+    for (int n = 0; n < hits_; ++n) {
+      const Hit& hit = hit_[n];
+      if (sum[hit.neighbour].side() == Side::none)
         continue;
-      crossed |= 1u << k;
-      ++m.count;
-      record(p, paths, crack, k);
+      record(paths, crack, hit, sum[hit.neighbour].net < 0, !(crossed >> hit.neighbour & 1u));
+      crossed |= 1u << hit.neighbour;
     }
-    crack_clearance2(paths, crack, crossed, list);
+    take_crack_clearance(paths, crack, crossed, list);
   }
 
-  void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits) {
+  void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits, CrossingSum& sum) {
     const int first = in_.cracks.start[static_cast<size_t>(crack)],
               last = in_.cracks.start[static_cast<size_t>(crack) + 1];
     for (; bits; bits &= bits - 1) {
@@ -158,34 +214,25 @@ class Tracer {
                              segment + 2 == last);
       if (c == 0)
         continue;
-      found_[k].sum.add(c);
-      found_[k].segment = segment;
-      for (int m = 0; m < 4; ++m)
-        found_[k].normal[m] += c * fields_.segment_normal[4L * segment + m];
+      sum.add(c);
+      if (hits_ == hit_.size())
+        hit_.resize(2 * hit_.size() + 32);
+      hit_[hits_++] = {k, segment, c};
     }
   }
 
-  void record(long p, const Paths<Shape>& paths, int crack, int k) {
-    Found& found = found_[k];
+  void record(const Paths<Shape>& paths, int crack, const Hit& hit, bool below, bool leads) {
+    const int k = hit.neighbour;
     const int f = fields_.node_index[static_cast<long>(paths.j + k / width) * in_.lattice.nx + paths.i + k % width];
     int at = fields_.candidate_start[f];
     while (fields_.candidate[at] != crack)
       ++at;
-    const int entry = 2 * at + (found.sum.net < 0);
-    if (found.sum.net < 0)
-      for (std::int64_t& n : found.normal)
-        n = -n;
-    const bool weight = weighs(p, k);
-    recorder_.add({static_cast<int>(p), entry, found.segment, static_cast<std::uint16_t>(k), weight});
-    if (weight)
-      tally_.add(entry, found.normal);
-  }
-
-  /// Whether the particle has a weight on its node k.
-  bool weighs(long p, int k) {
-    if (!weighed_)
-      weighed_ = nodes_weighed(p);
-    return weighed_ >> k & 1u;
+    int segment = fields_.segment_start[at];
+    while (fields_.node_segment[segment] != hit.segment)
+      ++segment;
+    records_.add({f, 2 * at + below, 2 * segment + below, static_cast<std::uint8_t>(k), leads,
+                  static_cast<std::uint8_t>(weighed_ >> k & 1u),
+                  static_cast<std::int8_t>(below ? -hit.sign : hit.sign)});
   }
 
   /// A bit for each node on which the particle has a weight.
@@ -206,23 +253,26 @@ class Tracer {
     return in_.lattice.position(paths.i + k % width, paths.j + k / width);
   }
 
-  /// Least squared distance of the cell's nodes from its segments; the same for all particles of the cell.
-  double node_clearance2(const Paths<Shape>& paths, int cell, SegmentList list) {
-    if (cell == clear_cell_)
-      return clear_nodes2_;
-    clear_cell_ = cell;
-    clear_nodes2_ = std::numeric_limits<double>::max();
-    const Vec2* point = in_.cracks.plane.data();
-    for (int k = 0; k < nodes; ++k)
-      for (int s = 0; s < list.count; ++s)
-        clear_nodes2_ =
-            std::min(clear_nodes2_, distance2(node(paths, k), point[list.segment[s]], point[list.segment[s] + 1]));
-    return clear_nodes2_;
+  /// Takes the distances of the nodes from all segments; and that of the particle from the line of a segment on which a
+  /// node lies: beyond that line it would cross from the other side.
+  void take_node_clearance(const Paths<Shape>& paths) {
+    for (int k = 0; k < nodes; ++k) {
+      const int f = fields_.node_index[static_cast<long>(paths.j + k / width) * in_.lattice.nx + paths.i + k % width];
+      if (f < 0)
+        continue;
+      const NodeClearance& c = fields_.clearance[f];
+      clear2_ = std::min(clear2_, c.now * c.now);
+      if (c.near >= 0 && on_line(c))
+        for (int s = c.near; s <= c.near + c.joined; ++s) {
+          const double clear = line_clearance(paths.particle, in_.cracks.plane[s], in_.cracks.plane[s + 1]);
+          clear2_ = std::min(clear2_, clear * clear);
+        }
+    }
   }
 
   /// Takes the distances of the particle from the segments of one crack, of the crack's tips from all paths, and of
   /// its joints from the paths that cross it.
-  void crack_clearance2(const Paths<Shape>& paths, int crack, unsigned crossed, SegmentList list) {
+  void take_crack_clearance(const Paths<Shape>& paths, int crack, unsigned crossed, SegmentList list) {
     const int first = in_.cracks.start[static_cast<size_t>(crack)],
               last = in_.cracks.start[static_cast<size_t>(crack) + 1] - 1;
     const Vec2* point = in_.cracks.plane.data();
@@ -238,21 +288,17 @@ class Tracer {
       if (a + 1 == last || s + 1 == list.count || list.segment[s + 1] != a + 1)
         take(a + 1 == last ? all : crossed, a + 1);
     }
-    for (; crossed; crossed &= crossed - 1)
-      if (found_[std::countr_zero(crossed)].sum.count > 1)
-        clear2_ = 0;  // one segment does not tell the normal
   }
 
   TraceInput<Real> in_;
   CrackFields& fields_;
-  Recorder& recorder_;
-  LocalTally& tally_;
-  double inv_h_;
-  double clear2_ = 0;    ///< squared clearance of the particle in hand
-  int clear_cell_ = -1;  ///< the cell whose nodes' clearance is known
-  double clear_nodes2_ = 0;
-  unsigned weighed_ = 0;  ///< nodes on which the particle in hand has a weight; 0: not known
-  Found found_[nodes];
+  CrossingRecords records_;
+  double inv_h_, rounding_;
+  TileTrace* tile_ = nullptr;
+  double clear2_ = 0;     ///< squared clearance of the particle in hand
+  unsigned weighed_ = 0;  ///< nodes on which the particle in hand has a weight
+  exec::Array<Hit> hit_;  ///< of one crack
+  int hits_ = 0;
 };
 
 }  // namespace riven

@@ -45,6 +45,17 @@ struct Linear {
     const Real f = std::floor(X), r = X - f;
     return {static_cast<int>(f), {Real(1) - r, r}, {Real(-1), Real(1)}};
   }
+  /// How far X may move, in cells, before it leaves its cell.
+  template <class Real>
+  static RIVEN_INLINE Real to_next_cell(Real X) {
+    const Real r = X - std::floor(X);
+    return std::min(r, Real(1) - r);
+  }
+  /// The same, before it leaves its cell or a weight begins or ceases to be zero.
+  template <class Real>
+  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>&) {
+    return to_next_cell(X);
+  }
 };
 
 struct UGimp {
@@ -64,6 +75,15 @@ struct UGimp {
     const Real s2 = above * above * a.inv_4half + std::max(Real(0), r - c);
     const Real g0 = Real(-2) * below * a.inv_4half, g2 = Real(2) * above * a.inv_4half;
     return {static_cast<int>(near) - 1, {s0, Real(1) - s0 - s2, s2}, {g0, -g0 - g2, g2}};
+  }
+  template <class Real>
+  static RIVEN_INLINE Real to_next_cell(Real X) {
+    return Real(0.5) - std::abs(X - std::floor(X + Real(0.5)));
+  }
+  template <class Real>
+  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>& a) {
+    const Real r = std::abs(X - std::floor(X + Real(0.5)));
+    return std::min(Real(0.5) - r, std::abs(r - a.half));
   }
 };
 
@@ -93,6 +113,16 @@ struct BSpline {
     g1 = low ? Real(-1) : high ? Real(1) : g1;
     g2 = low ? Real(1) : high ? Real(0) : g2;
     return {node - 1, {s0, s1, s2}, {g0, g1, g2}};
+  }
+  template <class Real>
+  static RIVEN_INLINE Real to_next_cell(Real X) {
+    return Real(0.5) - std::abs(X - std::floor(X + Real(0.5)));
+  }
+  template <class Real>
+  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>& a) {
+    const Real near = std::floor(X + Real(0.5)), r = std::abs(X - near);
+    const int node = static_cast<int>(near);
+    return node <= a.wall_lower || node >= a.wall_upper ? std::min(Real(0.5) - r, r) : Real(0.5) - r;
   }
 };
 

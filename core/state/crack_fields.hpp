@@ -21,29 +21,53 @@ struct NodeCracks {
   Vec2 normal0[2];  ///< the same of the crack's first position
 };
 
-/// One particle-node pair that crosses one crack.
+/// One segment that the path from a particle to one of its nodes crosses. A path that crosses a crack several times has
+/// as many records for it, the first of which counts as the crossing.
 struct CrossingRecord {
-  int particle;                 ///< position in the particle arrays
-  int entry;                    ///< 2 * (position in CrackFields::candidate) + (comes from below)
-  int segment;                  ///< the crossed segment (the last, if there are several)
-  std::uint16_t neighbour = 0;  ///< which of the particle's nodes, row by row from the lower left
-  std::uint16_t weighs = 0;     ///< the shape function is not zero there; else nothing follows from the crossing
+  int node;                ///< position in CrackFields::nodes
+  int entry;               ///< 2 * (position in CrackFields::candidate) + (comes from below)
+  int share;               ///< 2 * (position in CrackFields::node_segment) + (comes from below)
+  std::uint8_t neighbour;  ///< which of the particle's nodes, row by row from the lower left
+  std::uint8_t leads;      ///< 1 for the first record of a path and a crack
+  std::uint8_t weighs;     ///< the shape function is not zero there; else nothing follows from the crossing
+  std::int8_t sign;        ///< of the segment's normal: -1 where the path comes back through the crack
+
+  bool operator==(const CrossingRecord&) const = default;
 };
 
 /// What the last trace of a particle found, and for how long that holds.
 struct CrossingMemory {
-  int stamp = 0;  ///< CrackFields::stamp when it was last used: void unless at the trace before
-  int id = -1;    ///< of the particle, which may since have been sorted to another position
-  int cell = -1;  ///< of the particle
   int first = 0;  ///< its records in CrackFields::records
   int count = 0;
-  double clear = 0;   ///< m, sum of the moves of the particle and the cracks up to which they hold
-  double travel = 0;  ///< CrackFields::travel of that time
-  Vec2 x;             ///< the particle's position then
+  int room = 0;          ///< records that fit there
+  int cell = -1;         ///< of the particle, or -1: off the grid
+  int known = 0;         ///< 1 once traced
+  unsigned weighed = 0;  ///< a bit for each node on which it has a weight, where that matters
+  double weighs = 0;     ///< TileTrace::path up to which these stay
+  double clear = 0;      ///< m, sum of the moves of the particle and the cracks up to which the crossings stay
+  double travel = 0;     ///< TileTrace::travel of that time
+  Vec2 x;                ///< the particle's position then
 };
 
-struct RecordChunk {
-  long begin, count;
+/// How far a node is from the segments that it may see. A node that is all but on one segment, or on the joint of two,
+/// is followed by the sides on which it lies of these, and its distance is that from all others.
+struct NodeClearance {
+  double measured = 0;  ///< m
+  double travel = 0;    ///< CrackFields::travel of that time
+  double now = 0;       ///< m, at least
+  int near = -1;        ///< the segment that the node is all but on, or -1
+  int joined = 0;       ///< 1 if that goes for the next segment, too
+  int sides = 0;        ///< see follow_node
+};
+
+/// What trace and assign know of one marked tile.
+struct TileTrace {
+  double travel = 0;  ///< m, sum over the steps of the largest move of a crack in sight
+  double path = 0;    ///< the same, and of the largest move of a particle
+  double limit = 0;   ///< path up to which no particle of the tile needs to be looked at
+  int turned = 0;     ///< 1 if particles of the tile may be in a cell of CrackFields::turned
+  int changed = 0;    ///< 1 if records of its particles have changed, or what they mean
+  int warnings[2] = {0, 0};
 };
 
 struct CrackFields {
@@ -53,32 +77,45 @@ struct CrackFields {
 
   // hash: cells, tiles and nodes that may see cracks; remade when a crack has moved by more than the margin.
   // A cell carries the number of the node that the shape function sorts its particles by.
-  exec::Array<int> cell_index;       ///< [nodes] index into `cells`, or -1
-  exec::Array<int> cells;            ///< [marked] cells that see a segment, ascending
-  exec::Array<int> cell_start;       ///< [marked + 1] CSR of the segments seen by each such cell
-  exec::Array<int> cell_segment;     ///< first point of each seen segment, ascending within a cell
-  exec::Array<int> tile_marked;      ///< [tiles] 1 where particles sorted into the tile may see a crack
-  exec::Array<int> marked_tiles;     ///< the same as a list
-  exec::Array<int> node_index;       ///< [nodes] index into `nodes`, or -1
-  exec::Array<NodeCracks> nodes;     ///< [flagged] every node that may see a crack, in ascending node number
-  exec::Array<int> candidate_start;  ///< [flagged + 1] CSR of the cracks that each such node may see
-  exec::Array<int> candidate;        ///< crack numbers, ascending within a node
-  exec::Array<int> extra;            ///< [nodes] see grid.hpp
+  exec::Array<int> cell_index;        ///< [nodes] index into `cells`, or -1
+  exec::Array<int> cells;             ///< [marked] cells that see a segment, ascending
+  exec::Array<int> cell_start;        ///< [marked + 1] CSR of the segments seen by each such cell
+  exec::Array<int> cell_segment;      ///< first point of each seen segment, ascending within a cell
+  exec::Array<int> tile_marked;       ///< [tiles] 1 + index into `marked_tiles`, or 0
+  exec::Array<int> marked_tiles;      ///< tiles whose particles may see a crack, ascending
+  exec::Array<int> tile_crack_start;  ///< [marked tiles + 1] CSR of the cracks that such particles may see
+  exec::Array<int> tile_crack;
+  exec::Array<int> node_index;          ///< [nodes] index into `nodes`, or -1
+  exec::Array<NodeCracks> nodes;        ///< [flagged] every node that may see a crack, in ascending node number
+  exec::Array<std::uint8_t> held;       ///< [flagged] how many cracks the node holds
+  exec::Array<std::uint8_t> cell_held;  ///< [nodes] how many such nodes a cell and its neighbours have
+  exec::Array<int> candidate_start;     ///< [flagged + 1] CSR of the cracks that each such node may see
+  exec::Array<int> candidate;           ///< crack numbers, ascending within a node
+  exec::Array<int> segment_start;       ///< [candidates + 1] CSR of the segments of this crack that the node may see
+  exec::Array<int> node_segment;        ///< first points of these, ascending
+  exec::Array<int> extra;               ///< [nodes] see grid.hpp
   int extra_slots = 0;
   exec::Array<Vec2> hashed;  ///< [points] crack points when the hash was made
 
-  // trace: crossings, and their sums for each candidate and side. Sums are of integers, so that they do not depend on
-  // the order of the particles.
+  // trace: crossings, and their sums for each node. They are kept from step to step and changed where a particle's
+  // crossings change. Sums are of integers, so that they do not depend on the order of the particles.
   exec::Array<std::int64_t> segment_normal;  ///< [4 points] fixed-point unit normals of now and of the first position
-  exec::Array<CrossingRecord> records, last_records;
-  exec::Array<RecordChunk> chunks;  ///< parts of `records`, in the order in which they were finished
-  long chunk_count = 0;
-  exec::Array<CrossingMemory> memory;      ///< [particles]
-  exec::Array<Vec2> traced;                ///< [points] crack points at the last trace
-  double travel = 0;                       ///< m, sum over the steps of the largest move of any crack point
-  int stamp = 1;                           ///< counts the traces, and one more for what voids all memories
-  exec::Array<int> tally;                  ///< [2 candidates] crossings from above and from below
-  exec::Array<std::int64_t> tally_normal;  ///< [4][2 candidates] sums of the segments' normals
+  exec::Array<Vec2> traced;                  ///< [points] crack points at the last trace
+  exec::Array<double> crack_move;            ///< [cracks] m, largest move of its points since the trace before
+  double travel = 0;                         ///< m, sum over the steps of the largest of these
+  exec::Array<NodeClearance> clearance;      ///< [flagged]
+  int traces = 0;                            ///< so far
+  exec::Array<int> turned;                   ///< [nodes] the last trace before which a node of this cell changed sides
+  exec::Array<CrossingRecord> records;
+  long used = 0;                       ///< records given away
+  exec::Array<CrossingMemory> memory;  ///< [particles]
+  exec::Array<double> limit;           ///< [particles] as TileTrace::limit
+  exec::Array<double> block_limit;     ///< [blocks of particles] the least of these
+  exec::Array<TileTrace> tiles;        ///< [marked tiles]
+  long order = -1;                     ///< Tiles::order of the particles that `memory` is about; -1: nothing is known
+  exec::Array<int> tally;              ///< [2 candidates] crossings from above and from below
+  exec::Array<int> share;              ///< [2 node_segment] times that a segment's normal is in the sum of its node
+  exec::Array<std::uint8_t> recount;   ///< [flagged] 1 where sums have changed
 
   // assign
   exec::Array<std::uint8_t> verdict;  ///< [2 candidates] what a crossing of this entry means

@@ -13,6 +13,7 @@ struct Tiles {
   exec::Array<int> start;      ///< [tiles + 1] first particle of each tile
   std::vector<int> by_colour;  ///< tiles that hold particles, colour after colour
   int colour_start[5] = {0, 0, 0, 0, 0};
+  long order = 0;  ///< counts the sorts: while it stays, so does every particle's place
 };
 
 template <class Real, int Dim>

@@ -66,6 +66,12 @@ Particles<double, 2> sorted_particles(const Lattice& l, const std::vector<Vec2>&
     ++p.tiles.start[tile(id) + 1];
   }
   std::partial_sum(p.tiles.start.begin(), p.tiles.start.end(), p.tiles.start.begin());
+  // another number for another order
+  std::uint64_t hash = 14695981039346656037u;
+  for (const auto* list : {&p.id, &p.tiles.start})
+    for (const int n : *list)
+      hash = (hash ^ static_cast<std::uint64_t>(n)) * 1099511628211u;
+  p.tiles.order = static_cast<long>(hash >> 1);
   return p;
 }
 

@@ -1,0 +1,31 @@
+// The cells around a place of the lattice, and the tiles whose particles may be in them.
+#pragma once
+#include <algorithm>
+
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+/// f(cell) for the cells whose particles may see a node.
+template <class F>
+void each_cell_seeing(const Lattice& lattice, int node, const F& f) {
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      const long cell = node + long{j} * lattice.nx + i;
+      if (cell >= 0 && cell < lattice.nodes())
+        f(cell);
+    }
+}
+
+/// f(tile) for the tiles of all particles that may be in the given cell or at most `reach` cells away from it along
+/// each axis. Particles may have drifted by one cell since they were sorted into their tile.
+template <class F>
+void each_tile_around(const Lattice& lattice, int cell, int reach, const F& f) {
+  const auto tile = [](int at, int n) { return std::clamp(at, 0, n - 1) / Lattice::tile; };
+  const int i = cell % lattice.nx, j = cell / lattice.nx, far = reach + 1;
+  for (int ty = tile(j - far, lattice.ny); ty <= tile(j + far, lattice.ny); ++ty)
+    for (int tx = tile(i - far, lattice.nx); tx <= tile(i + far, lattice.nx); ++tx)
+      f(ty * lattice.tiles_x() + tx);
+}
+
+}  // namespace riven
