@@ -110,25 +110,28 @@ RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, do
 /// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
 /// search for a common solution.
 template <class Real, ContactStage stage>
-RIVEN_INLINE ContactReport one_contact(const Motion<Real, stage>& motion, const Detection& found, double dt,
-                                       const NodeCracks& n, long index, const Lattice& lattice, const int* extra,
-                                       const ContactSettings* laws) {
-  ContactReport report;
+RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection& found, double dt, const NodeCracks& n,
+                              long index, const Lattice& lattice, const int* extra, const ContactSettings* laws,
+                              ContactReport& report) {
   const long slot[2] = {n.node, long{lattice.nodes()} + extra[n.node]};
   const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
   if (!(mass[0] > 0) || !(mass[1] > 0))
-    return report;
-  const ContactField* field = found.field ? found.field + ContactNode::fields * index : nullptr;
-  const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
+    return;
   const Meeting m = neighbour_meeting(n, laws, 0, 0, 1);
-  const Verdict v = judge(found, field, dt, m, volume);
-  if (v.touch == Touch::none)
-    return report;
+  if (m.law.law == ContactLaw::ignored)
+    return;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const double inverse[2] = {1 / mass[0], 1 / mass[1]};
   const int a = m.above, b = m.below;
   const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
   const double un = dot(u, m.normal), reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
+  if (un <= 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
+    ++report.apart;  // faces that part do not touch, whatever their gap
+    return;
+  }
+  const ContactField* field = found.field ? found.field + ContactNode::fields * index : nullptr;
+  const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
+  const Verdict v = judge(found, field, dt, m, volume);
   const double tiny = ContactNode::tolerance * (norm(momentum[0]) + norm(momentum[1]));
   Vec2 velocity[2], impulse[2];
   bool touches = false;
@@ -147,17 +150,18 @@ RIVEN_INLINE ContactReport one_contact(const Motion<Real, stage>& motion, const 
   }
   ++(touches ? report.touching : report.apart);
   if (!touches)
-    return report;
+    return;
   if (v.touch != Touch::bonds) {
-    report.penetration = std::max(0., -v.gap);
-    report.gap = std::max(0., v.gap);
-    report.early = volume < found.v_sep;
+    report.penetration = std::max(report.penetration, -v.gap);
+    report.gap = std::max(report.gap, v.gap);
+    report.early += volume < found.v_sep;
   }
+  double work = 0;
   for (int f = 0; f < 2; ++f) {
-    report.work += 0.5 * dot(impulse[f], motion.first_velocity(slot[f], dt) + velocity[f]);
+    work += 0.5 * dot(impulse[f], motion.first_velocity(slot[f], dt) + velocity[f]);
     motion.change(slot[f], impulse[f], velocity[f], dt);
   }
-  return report;
+  report.work += work;
 }
 
 /// The contacts of a node with several meetings, from its slots to its slots.
@@ -323,18 +327,21 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
          const Detection& found, double dt, ContactReport& report) {
   const Motion<Real, stage> motion(grid);
   const NodeCracks* nodes = fields.nodes.data();
+  const std::uint8_t* held = fields.held.data();
   const int* extra = fields.extra.data();
   const ContactSettings* laws = cracks.contact.data();
   const Lattice lattice = grid.lattice;
-  report += exec::parallel_reduce<ContactReport>(space, label, fields.nodes.size(), [=](long i) {
+  report += exec::parallel_sum<ContactReport>(space, label, fields.nodes.size(), [=](long i, ContactReport& sum) {
+    if (held[i] == 0)
+      return;
     const NodeCracks& n = nodes[i];
-    if (n.crack[0] < 0)
-      return ContactReport{};
-    if (n.crack[1] < 0 && laws[n.crack[0]].law != ContactLaw::interface)
-      return one_contact(motion, found, dt, n, i, lattice, extra, laws);
+    if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
+      one_contact(motion, found, dt, n, i, lattice, extra, laws, sum);
+      return;
+    }
     NodeContact<Real, stage> here{motion, found, dt};
     here.run(n, i, lattice, extra, laws);
-    return here.report;
+    sum += here.report;
   });
 }
 

@@ -1,5 +1,7 @@
 #include "kernels/contact_sums.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/block.hpp"
@@ -18,27 +20,34 @@ RIVEN_INLINE double area_ratio(const Real* const F[4], const Real* J, long i) {
   return double(F[0][i]) * F[3][i] - double(F[1][i]) * F[2][i];
 }
 
-/// The flagged nodes among the neighbours of the particles in one cell, which are remembered from particle to
+/// Where nodes hold cracks; see CrackFields.
+struct CrackNodes {
+  const int* index;
+  const std::uint8_t *held, *cell_held;
+};
+
+/// The nodes that hold cracks among the neighbours of the particles in one cell, which are remembered from particle to
 /// particle: particles are sorted by cell.
 template <class Shape>
-struct FlaggedNeighbours {
-  int cell_x = -1, cell_y = -1;
+struct HeldNeighbours {
+  int cell = -1;
   int count = 0;
   int neighbour[neighbours<Shape, 2>];
   int index[neighbours<Shape, 2>];
   Vec2 place[neighbours<Shape, 2>];
 
-  RIVEN_INLINE void find(int x, int y, const Lattice& lattice, const int* node_index, const NodeCracks* nodes) {
-    if (x == cell_x && y == cell_y)
+  RIVEN_INLINE void find(int of, const Lattice& lattice, const CrackNodes& at) {
+    if (of == cell)
       return;
     constexpr int before = Shape::width == 3;  // nodes on the lower side of a cell's own
-    cell_x = x;
-    cell_y = y;
+    cell = of;
     count = 0;
+    if (at.cell_held[cell] == 0)
+      return;
+    const int x = cell % lattice.nx - before, y = cell / lattice.nx - before;
     for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-      const int ix = x - before + k % Shape::width, iy = y - before + k / Shape::width;
-      const int i = node_index[iy * lattice.nx + ix];
-      if (i < 0 || nodes[i].crack[0] < 0)
+      const int ix = x + k % Shape::width, iy = y + k / Shape::width, i = at.index[iy * lattice.nx + ix];
+      if (i < 0 || at.held[i] == 0)
         continue;
       neighbour[count] = k;
       place[count] = lattice.position(ix, iy);
@@ -51,6 +60,7 @@ template <class Shape, class Real>
 void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, const Particles<Real, 2>& particles,
                    const exec::Array<DomainSetting<Real, 2>>& domains, const exec::Array<double>& specific_area,
                    const Lattice& lattice, const CrackFields& fields, ContactField* out) {
+  constexpr int L = exec::lanes, N = Shape::width;
   const exec::Stopwatch watch(space.timers(), "contact sums");
   const Tiles& tiles = particles.tiles;
   const Real* const F[4] = {particles.F[0].data(), particles.F[1].data(), particles.F[2].data(), particles.F[3].data()};
@@ -58,36 +68,49 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
   const Real *x = particles.x[0].data(), *y = particles.x[1].data(), *mass = particles.mass.data();
   const Real *X = particles.x0[0].data(), *Y = particles.x0[1].data();
   const Real* J = particles.J.empty() ? nullptr : particles.J.data();
-  const Real origin_x = Real(lattice.origin.x), origin_y = Real(lattice.origin.y), inv_h = Real(1 / lattice.h);
-  const BodyLookup<DomainSetting<Real, 2>> domain{domains.data(), particles.body.data(), domains.size() == 1};
+  const Positions<Real> at{x,
+                           y,
+                           Real(lattice.origin.x),
+                           Real(lattice.origin.y),
+                           Real(1 / lattice.h),
+                           {domains.data(), particles.body.data(), domains.size() == 1}};
   const std::uint8_t* body = particles.body.data();
+  const CrackNodes nodes{fields.node_index.data(), fields.held.data(), fields.cell_held.data()};
   const double* specific = specific_area.data();
   const std::uint32_t* word = fields.fields.data();
-  const int *node_index = fields.node_index.data(), *start = tiles.start.data(), *marked = fields.tile_marked.data();
-  const NodeCracks* nodes = fields.nodes.data();
+  const int *start = tiles.start.data(), *marked = fields.tile_marked.data();
 
   const auto tile_body = [=](int tile) {
-    FlaggedNeighbours<Shape> near;
-    for (int p = start[tile]; p < start[tile + 1]; ++p) {
-      const Real px = (x[p] - origin_x) * inv_h, py = (y[p] - origin_y) * inv_h;
-      near.find(Shape::cell(px), Shape::cell(py), lattice, node_index, nodes);
-      if (near.count == 0)
-        continue;
-      const DomainSetting<Real, 2>& d = domain.of(p);
-      const auto a = Shape::axis(px, d.axis[0]);
-      const auto b = Shape::axis(py, d.axis[1]);
-      const double m = mass[p];
-      const double A = area ? m * specific[body[p]] * area_ratio(F, J, p) : 0;
-      for (int c = 0; c < near.count; ++c) {
-        const int k = near.neighbour[c], i = near.index[c];
-        const double S = double(a.s[k % Shape::width]) * double(b.s[k / Shape::width]), mS = m * S;
-        ContactField& f = out[4L * i + field_of(word[p], k)];
-        f.mass += mS;
-        f.area += A * S;
-        if (position) {
+    HeldNeighbours<Shape> near;
+    Block<Real, Shape> w;
+    alignas(64) int cell[L];
+    for (int first = start[tile]; first < start[tile + 1]; first += L) {
+      exec::for_lanes(L, [&](int k) RIVEN_LANE {
+        const int i = Shape::cell((x[first + k] - at.origin_x) * at.inv_h);
+        const int j = Shape::cell((y[first + k] - at.origin_y) * at.inv_h);
+        cell[k] = j * lattice.nx + i;
+      });
+      bool weighed = false;
+      for (int k = 0; k < std::min(L, start[tile + 1] - first); ++k) {
+        near.find(cell[k], lattice, nodes);
+        if (near.count == 0)
+          continue;
+        if (!weighed)
+          w.weigh(at, first);
+        weighed = true;
+        const int p = first + k;
+        const double m = mass[p], A = area ? m * specific[body[p]] * area_ratio(F, J, p) : 0;
+        const Quad<double> places =
+            position ? Quad<double>{double(x[p]), double(y[p]), double(X[p]), double(Y[p])} : Quad<double>{};
+        for (int c = 0; c < near.count; ++c) {
+          const int n = near.neighbour[c];
+          const double S = double(w.sx[n % N][k]) * double(w.sy[n / N][k]), mS = m * S;
+          ContactField& f = out[4L * near.index[c] + field_of(word[p], n)];
+          f.mass += mS;
+          f.area += A * S;
           const Vec2 node = near.place[c];
-          f.x += mS * (Vec2{double(x[p]), double(y[p])} - node);
-          f.X += mS * (Vec2{double(X[p]), double(Y[p])} - node);
+          if (position)
+            quad_at<double>(&f.x.x) += mS * (places - Quad<double>{node.x, node.y, node.x, node.y});
         }
       }
     }
@@ -99,6 +122,14 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
         tile_body(some[t]);
     });
   }
+}
+
+/// Clears the sums of the nodes that hold cracks.
+void clear_sums(const exec::Space& space, const CrackFields& fields, ContactField* out) {
+  exec::parallel_for(space, "contact sums", fields.nodes.size(), [=, held = fields.held.data()](long i) {
+    if (held[i])
+      std::fill(out + 4 * i, out + 4 * (i + 1), ContactField{});
+  });
 }
 
 template <class Shape, class Real>
@@ -136,7 +167,8 @@ void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSu
   sums.volumes = choice.volume;
   sums.field.resize(choice.volume || choice.position ? 4 * fields.nodes.size() : 0);
   sums.area.resize(choice.area ? 2 * fields.nodes.size() : 0);
-  sums.field.zero();
+  if (!sums.field.empty())
+    clear_sums(space, fields, sums.field.data());
   sums.area.zero();
   with_shape(shape, [&](auto type) {
     using Shape = typename decltype(type)::type;

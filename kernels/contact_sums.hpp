@@ -23,10 +23,10 @@
 namespace riven {
 
 /// Sums over the particles of one field at one node.
-struct ContactField {
+struct alignas(64) ContactField {
+  Vec2 x, X;        ///< kg m, current and first positions from the node, times mass
   double mass = 0;  ///< kg
   double area = 0;  ///< m^2, in the plane
-  Vec2 x, X;        ///< kg m, current and first positions from the node, times mass
 
   RIVEN_INLINE Vec2 mean_position() const { return x * (1 / mass); }
   RIVEN_INLINE Vec2 mean_first_position() const { return X * (1 / mass); }
@@ -39,10 +39,10 @@ struct ContactArea {
 };
 
 struct ContactSums {
-  exec::Array<ContactField>
-      field;                      ///< [4 flagged] entry 4 i + f: field f of CrackFields::nodes[i]; empty: not asked for
-  exec::Array<ContactArea> area;  ///< [2 flagged] entry 2 i + k: crack k of that node; empty: no interface law
-  bool volumes = false;           ///< ContactField::area was summed
+  exec::Array<ContactField> field;  ///< [4 flagged] entry 4 i + f: field f of CrackFields::nodes[i], if that holds
+                                    ///< cracks; empty: not asked for
+  exec::Array<ContactArea> area;    ///< [2 flagged] entry 2 i + k: crack k of that node; empty: no interface law
+  bool volumes = false;             ///< ContactField::area was summed
 };
 
 /// What to sum.

@@ -60,23 +60,29 @@ void parallel_for(const Space& space, const char* label, long n, const F& f) {
   });
 }
 
-/// Sum of f(i) over i in [0, n), T being default-constructible to zero and having +=.
+/// Sum over i in [0, n) of what f(i, sum) adds to its argument, T being default-constructible to zero and having +=.
 /// Chunks are summed in order: the result is the same on any number of threads.
 template <class T, class F>
-T parallel_reduce(const Space& space, const char* label, long n, const F& f) {
+T parallel_sum(const Space& space, const char* label, long n, const F& f) {
   const long chunks = (n + chunk - 1) / chunk;
   std::vector<T> part(static_cast<size_t>(chunks));
   parallel_tasks(space, label, chunks, [&, p = part.data()](long c) {
     T sum{};
     const long end = std::min(n, (c + 1) * chunk);
     for (long i = c * chunk; i < end; ++i)
-      sum += f(i);
+      f(i, sum);
     p[c] = sum;
   });
   T total{};
   for (const T& t : part)
     total += t;
   return total;
+}
+
+/// Sum of f(i) over i in [0, n), like parallel_sum.
+template <class T, class F>
+T parallel_reduce(const Space& space, const char* label, long n, const F& f) {
+  return parallel_sum<T>(space, label, n, [&](long i, T& sum) { sum += f(i); });
 }
 
 }  // namespace riven::exec
