@@ -79,7 +79,12 @@ std::vector<Entrant> methods() {
           transferred("fmpm(1)", Transfer::fmpm, 1),
           transferred("fmpm(2)", Transfer::fmpm, 2),
           transferred("xpic(2)", Transfer::xpic, 2),
-          swirling("linear", cells, [](Scene& s) { s.shape = ShapeFunction::linear; }),
+          swirling("linear, musl", cells,
+                   [](Scene& s) {
+                     // USL divides by the tiny masses of nodes at the free edge and turns a particle inside out
+                     s.shape = ShapeFunction::linear;
+                     s.stress_update = StressUpdate::musl;
+                   }),
           swirling("bspline", cells, [](Scene& s) { s.shape = ShapeFunction::bspline; }),
           swirling("atomic", cells, [](Scene& s) { s.scatter = ScatterKind::atomic; })};
 }
