@@ -32,6 +32,7 @@ struct Paths {
   int i, j;           ///< first node
   Floats dx[groups];  ///< from the particle to the nodes, in cells; lanes past the last node repeat it
   Floats dy[groups];
+  Floats inv_length2[groups];  ///< 0 for a path of next to no length
 
   Paths(Vec2 p, int i0, int j0, const Lattice& lattice, double inv_h) : particle(p), i(i0), j(j0) {
     float x[N], y[N];
@@ -43,6 +44,31 @@ struct Paths {
     for (int k = 0; k < groups * float_lanes; ++k) {
       dx[k / float_lanes][k % float_lanes] = x[std::min(k, nodes - 1) % N];
       dy[k / float_lanes][k % float_lanes] = y[std::min(k, nodes - 1) / N];
+    }
+    for (int g = 0; g < groups; ++g) {
+      const Floats length2 = dx[g] * dx[g] + dy[g] * dy[g], one = Floats{} + 1.f;
+      inv_length2[g] = length2 > 1e-12f ? one / length2 : Floats{};
+    }
+  }
+
+  /// A lane for each of the nodes whose bits are given.
+  static Masks lanes_of(unsigned bits, int group) {
+    Masks m{};
+    for (int k = 0; k < float_lanes; ++k)
+      m[k] = bits >> std::min(group * float_lanes + k, nodes - 1) & 1u ? -1 : 0;
+    return m;
+  }
+
+  /// Takes the squared distances (in cells) of a point from the paths of the given lanes into `least`.
+  void take_distance2(Vec2 point, double inv_h, const Masks* which, Floats* least) const {
+    const float x = static_cast<float>((point.x - particle.x) * inv_h);
+    const float y = static_cast<float>((point.y - particle.y) * inv_h);
+    const Floats zero{}, one = zero + 1.f;
+    for (int g = 0; g < groups; ++g) {
+      Floats t = (x * dx[g] + y * dy[g]) * inv_length2[g];
+      t = t < zero ? zero : t > one ? one : t;
+      const Floats off_x = x - t * dx[g], off_y = y - t * dy[g], d2 = off_x * off_x + off_y * off_y;
+      least[g] = (d2 < least[g]) & which[g] ? d2 : least[g];
     }
   }
 

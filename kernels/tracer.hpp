@@ -58,6 +58,7 @@ class Tracer {
   static constexpr double never = std::numeric_limits<double>::max();
   static constexpr int width = Shape::width;
   static constexpr int nodes = width * width;
+  static constexpr int groups = Paths<Shape>::groups;
 
   /// A segment that the path to one node crosses: +1 from above, -1 from below.
   struct Hit {
@@ -132,7 +133,7 @@ class Tracer {
       if (fields_.cell_index[m.cell] >= 0) {
         clear2_ = inside * inside;
         trace_all(p, m);
-        m.clear = (1 - 1e-9) * std::sqrt(clear2_) - rounding_;
+        m.clear = std::min((1 - 1e-9) * std::sqrt(clear2_) - rounding_, path_clearance());
       } else {
         m.clear = inside - rounding_ + (cracks_around(m.cell) ? 0 : in_.lattice.h);
       }
@@ -171,6 +172,8 @@ class Tracer {
     m.weighed = nodes_weighed(p);
     weighed_ = m.weighed;
     take_node_clearance(paths);
+    for (Floats& f : path_clear2_)
+      f = Floats{} + 1e6f;
     while (segment < last) {
       const int crack = in_.cracks.crack[*segment], end = in_.cracks.start[static_cast<size_t>(crack) + 1];
       int count = static_cast<int>(last - segment);
@@ -276,18 +279,31 @@ class Tracer {
     const int first = in_.cracks.start[static_cast<size_t>(crack)],
               last = in_.cracks.start[static_cast<size_t>(crack) + 1] - 1;
     const Vec2* point = in_.cracks.plane.data();
-    const auto take = [&](unsigned some, int at) {
-      for (; some; some &= some - 1)
-        clear2_ = std::min(clear2_, distance2(point[at], paths.particle, node(paths, std::countr_zero(some))));
+    Masks all[groups], some[groups];
+    for (int g = 0; g < groups; ++g) {
+      all[g] = ~Masks{};
+      some[g] = Paths<Shape>::lanes_of(crossed, g);
+    }
+    const auto take = [&](const Masks* paths_of, int at) {
+      paths.take_distance2(point[at], inv_h_, paths_of, path_clear2_);
     };
-    constexpr unsigned all = (1u << nodes) - 1;
     for (int s = 0; s < list.count; ++s) {
       const int a = list.segment[s];
       clear2_ = std::min(clear2_, distance2(paths.particle, point[a], point[a + 1]));
-      take(a == first ? all : crossed, a);
-      if (a + 1 == last || s + 1 == list.count || list.segment[s + 1] != a + 1)
-        take(a + 1 == last ? all : crossed, a + 1);
+      if (a == first || crossed)
+        take(a == first ? all : some, a);
+      if ((a + 1 == last || crossed) && (a + 1 == last || s + 1 == list.count || list.segment[s + 1] != a + 1))
+        take(a + 1 == last ? all : some, a + 1);
     }
+  }
+
+  /// The least distance taken from the paths, below the true one by more than single precision may be off.
+  double path_clearance() const {
+    float least2 = path_clear2_[0][0];
+    for (int g = 0; g < groups; ++g)
+      for (int k = 0; k < float_lanes; ++k)
+        least2 = std::min(least2, path_clear2_[g][k]);
+    return in_.lattice.h * ((1 - 1e-5) * std::sqrt(double(least2)) - 1e-5);
   }
 
   TraceInput<Real> in_;
@@ -295,9 +311,10 @@ class Tracer {
   CrossingRecords records_;
   double inv_h_, rounding_;
   TileTrace* tile_ = nullptr;
-  double clear2_ = 0;     ///< squared clearance of the particle in hand
-  unsigned weighed_ = 0;  ///< nodes on which the particle in hand has a weight
-  exec::Array<Hit> hit_;  ///< of one crack
+  double clear2_ = 0;           ///< squared clearance of the particle in hand
+  Floats path_clear2_[groups];  ///< squared distances in cells of tips and joints from its paths
+  unsigned weighed_ = 0;        ///< nodes on which the particle in hand has a weight
+  exec::Array<Hit> hit_;        ///< of one crack
   int hits_ = 0;
 };
 
