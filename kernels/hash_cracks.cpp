@@ -172,11 +172,10 @@ bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cr
 template <class Shape>
 void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   const exec::Stopwatch watch(space.timers(), "hash cracks");
-  // paths lie between the cell's nodes; those that end at one node start at most one (linear) or one and a half cells
-  // away from it along each axis
-  constexpr bool wide = Shape::width == 3;
-  constexpr Reach cell = wide ? Reach{-1, 1, 1} : Reach{0, 1, 1};
-  constexpr Reach node = wide ? Reach{-1.5, 1.5, 0} : Reach{-1, 1, 0};
+  // paths lie between a place in the cell and the three by three nodes around the nearest one, which crack surfaces see
+  // with every shape function; those that end at one node start at most one and a half cells away from it
+  constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
+  constexpr Reach node{-1.5, 1.5, 0};
   fill(space, lattice, cracks, cell, {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
   mark_tiles(lattice, cracks, fields);
   exec::Array<int> flagged, start;

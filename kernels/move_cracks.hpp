@@ -1,15 +1,16 @@
 // Moves the surfaces and the plane of all cracks with the advanced grid (Nairn et al., section 2.1.2).
 //
 // Velocity and acceleration at a surface point x_s are mass-weighted and renormalised over the nodes that have mass in
-// the field v(s,i), with the ordinary functions of the grid N_i, as these points have no domain (eqs. 3-6):
-//   v = sum m_i N_i v_i / sum m_i N_i,    a likewise.
-// A surface moves by
-//   flip   v dt - a dt^2 / 2                              (second order)
-//   xpic   (3 v - v_s) dt / 2 - a dt^2,  v_s := v         (XPIC(1); v_s starts as v - a dt)
-//   pic    v dt                                           (first order)
+// the field v(s,i), with the ordinary functions of the grid N_i, as these points have no domain (eqs. 3-6), and carried
+// on to x_s by the gradient around it (surface_velocity.hpp). With v before and v~ = v + a dt after the forces, a
+// surface moves by
+//   flip   (v + v~) dt / 2                      (second order)
+//   xpic   (v + (v~ - v_s) / 2) dt, v_s := v~   (XPIC(1); v_s starts as v)
+//   pic    v~ dt                                (first order)
 // and the plane by the mean of both surfaces' moves, or with the centre of mass: the same sums over all fields of each
-// node, moved as in flip. A surface that finds no mass moves with the plane; a point where none is found moves with
-// the nearest point of its crack that does, so that the part of a crack outside of its body follows the body.
+// node, moved as in flip. A surface that finds no mass moves with the plane; a point where none is found moves as if it
+// were fixed to the nearest point of its crack that finds some, so that the part of a crack outside of its body stays
+// in line with it and never cuts it elsewhere.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/scene/scene.hpp"

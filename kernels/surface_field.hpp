@@ -1,5 +1,8 @@
 // v(s,i): the crack velocity field of a node for a point on a crack's surface (Nairn et al., end of the appendix).
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "core/fracture/crossing.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
@@ -15,6 +18,8 @@ struct SurfaceView {
   const int* cell_segment;
   const int* node_index;
   const NodeCracks* nodes;
+  const int* candidate_start;
+  const int* candidate;
   const int* crack;   ///< [points]
   const int* start;   ///< [cracks + 1]
   const Vec2* plane;  ///< [points]
@@ -27,58 +32,116 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
           fields.cell_segment.data(),
           fields.node_index.data(),
           fields.nodes.data(),
+          fields.candidate_start.data(),
+          fields.candidate.data(),
           cracks.crack.data(),
           cracks.start.data(),
           cracks.plane.data()};
 }
 
-/// One surface of one crack point.
+/// A crack's point and the crack around it.
+struct CrackPoint {
+  int crack;
+  Vec2 x;
+  Vec2 left;      ///< normal, towards above
+  Vec2 beyond;    ///< direction in which the crack ends here, 0 unless the point is a tip
+  bool tip;       ///< a tip of the crack in reach of the nodes around the point
+  bool straight;  ///< the crack leaves the line along the point by little, as far as these nodes reach
+};
+
+inline CrackPoint crack_point(const SurfaceView& view, int point) {
+  const int crack = view.crack[point], first = view.start[crack], last = view.start[crack + 1] - 1;
+  const Vec2 x = view.plane[point];
+  const Vec2 along = view.plane[point < last ? point + 1 : point] - view.plane[point > first ? point - 1 : point];
+  const double length = norm(along), reach = 1.6 * view.lattice.h, bend = 0.25 * view.lattice.h;
+  const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
+  CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, length > 0};
+  for (int step : {-1, 1})
+    for (int k = point, end = step < 0 ? first : last;; k += step) {
+      const Vec2 r = view.plane[k] - x;
+      if (std::fabs(r.x) > reach || std::fabs(r.y) > reach)
+        break;
+      p.straight = p.straight && std::fabs(dot(r, p.left)) < bend && step * dot(r, t) >= 0;
+      p.tip = p.tip || k == end;
+      if (k == end)
+        break;
+    }
+  return p;
+}
+
+/// One surface of a crack's point.
 struct SurfacePoint {
-  int point;  ///< of the crack
+  CrackPoint own;
   Side side;
   Vec2 x;           ///< where the surface is now
-  int crack;        ///< its own
   int first, last;  ///< part of cell_segment that its cell sees
-  bool alone;       ///< no other crack in sight
 };
 
 /// `cell`: that of x, by the shape function of the hash.
-RIVEN_INLINE SurfacePoint surface_point(const SurfaceView& view, int point, Side side, Vec2 x, int cell) {
-  const int seen = view.cell_index[cell], own = view.crack[point];
-  if (seen < 0)
-    return {point, side, x, own, 0, 0, true};
-  const int first = view.cell_start[seen], last = view.cell_start[seen + 1];
-  const bool alone = view.crack[view.cell_segment[first]] == own && view.crack[view.cell_segment[last - 1]] == own;
-  return {point, side, x, own, first, last, alone};
+RIVEN_INLINE SurfacePoint surface_point(const SurfaceView& view, const CrackPoint& own, Side side, Vec2 x, int cell) {
+  const int seen = view.cell_index[cell];
+  return {own, side, x, seen < 0 ? 0 : view.cell_start[seen], seen < 0 ? 0 : view.cell_start[seen + 1]};
 }
 
 namespace detail {
 
-/// Goes over all cracks in sight. `field` is what the point's own crack makes of it, if the node holds that.
-inline RIVEN_FN int trace_surface(const SurfaceView& view, const SurfacePoint& s, const NodeCracks& held, int field,
-                                  bool holds_own) {
-  const Vec2 n = view.lattice.position(held.node);
-  for (int at = s.first; at < s.last;) {
-    const int crack = view.crack[view.cell_segment[at]], first = view.start[crack], last = view.start[crack + 1] - 1;
-    const Vec2 from = crack == s.crack ? view.plane[s.point] : s.x;
-    CrossingSum sum;
-    for (; at < s.last && view.crack[view.cell_segment[at]] == crack; ++at) {
-      const int k = view.cell_segment[at];
-      if (crack != s.crack || !holds_own)
-        sum.add(crossing(from, n, view.plane + k, k == first, k + 1 == last));
-    }
-    if (crack == s.crack) {
-      // the line starts on its own crack, which counts there by the side of the surface
-      const bool at_start = crosses_at(view.plane + s.point, s.point == first, s.point == last, s.side, n);
-      if (!holds_own && (sum.count % 2 != 0) != at_start)
-        return -1;
-      continue;
-    }
-    if (sum.side() == Side::none)
+/// The side from which the line from `from` to n crosses the segments [at, end), all of one crack.
+inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, int at, int end) {
+  const int crack = view.crack[view.cell_segment[at]], first = view.start[crack], last = view.start[crack + 1] - 1;
+  const double left = std::min(from.x, n.x), right = std::max(from.x, n.x);
+  const double lower = std::min(from.y, n.y), upper = std::max(from.y, n.y);
+  CrossingSum sum;
+  for (; at < end; ++at) {
+    const int k = view.cell_segment[at];
+    const Vec2 a = view.plane[k], b = view.plane[k + 1];
+    const bool beside = (a.x < left && b.x < left) || (a.x > right && b.x > right);
+    if (!beside && !((a.y < lower && b.y < lower) || (a.y > upper && b.y > upper)))
+      sum.add(crossing(from, n, view.plane + k, k == first, k + 1 == last));
+  }
+  return sum.side();
+}
+
+/// Which of the segments in sight are the crack's.
+struct SegmentRange {
+  int at, end;
+};
+RIVEN_INLINE SegmentRange segments_of(const SurfaceView& view, const SurfacePoint& s, int crack) {
+  int at = s.first;
+  while (at < s.last && view.crack[view.cell_segment[at]] != crack)
+    ++at;
+  int end = at;
+  while (end < s.last && view.crack[view.cell_segment[end]] == crack)
+    ++end;
+  return {at, end};
+}
+
+/// Does the line from the surface to n cross the point's own crack? It starts off the crack's point, by a thousandth of
+/// a cell. The surface itself may lie on the wrong side, where faces overlap, and a line from the point to a node in
+/// line with the crack, as those beyond the tip of a crack on a grid line, would run along the crack and cross it or
+/// not by rounding. To a node well off a straight crack it crosses at once, except past the tip that it starts from.
+RIVEN_INLINE bool crosses_own(const SurfaceView& view, const SurfacePoint& s, Vec2 n) {
+  const Vec2 r = n - s.own.x;
+  const double off = dot(r, s.own.left), h = view.lattice.h;
+  if (s.own.straight && std::fabs(off) > 0.3 * h)
+    return (off > 0) != (s.side == Side::above) && !(dot(r, s.own.beyond) > 0);
+  const SegmentRange own = segments_of(view, s, s.own.crack);
+  const Vec2 from = s.own.x + ((s.side == Side::above ? 1e-3 : -1e-3) * h) * s.own.left;
+  return own.at < own.end && side_crossed(view, from, n, own.at, own.end) != Side::none;
+}
+
+/// Adds what the other cracks in sight make of a field, or -1.
+inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s, Vec2 n, const NodeCracks& held,
+                                 int field) {
+  for (int at = s.first, end = at; at < s.last; at = end) {
+    const int crack = view.crack[view.cell_segment[at]];
+    while (end < s.last && view.crack[view.cell_segment[end]] == crack)
+      ++end;
+    const Side side = crack == s.own.crack ? Side::none : side_crossed(view, s.x, n, at, end);
+    if (side == Side::none)
       continue;
     const int m = held.crack[1] == crack;
     if (held.crack[m] == crack) {
-      if (held.side[m] == sum.side())
+      if (held.side[m] == side)
         field |= 1 << m;
     } else if (held.crack[1] < 0) {
       return -1;
@@ -89,21 +152,29 @@ inline RIVEN_FN int trace_surface(const SurfaceView& view, const SurfacePoint& s
 
 }  // namespace detail
 
-/// The field of `node` for a surface point, or -1 if the node has no such field. The point's own crack is crossed where
-/// the node holds it and has crossings from this surface's side; another crack, where the line from the surface to the
-/// node crosses it from the side that the node holds. The field of a crack that the line crosses and the node does not
-/// hold is empty; only a crack beyond the two that a node can hold is ignored, as it is for particles.
-RIVEN_INLINE int field_of_surface(const SurfaceView& view, const SurfacePoint& s, int node) {
+/// The field of `node`, which lies at `place`, for a surface point, or -1 if the node has no such field. A crack is
+/// crossed where the line from the surface to the node crosses it from the side that the node holds. Along the middle
+/// of its own crack that is where the node has crossings from this surface's side; near a tip the line may pass beyond,
+/// whatever the node holds. The field of a crack that the line crosses and the node does not hold is empty; only a
+/// crack beyond the two that a node can hold is ignored, as it is for particles.
+RIVEN_INLINE int field_of_surface(const SurfaceView& view, const SurfacePoint& s, int node, Vec2 place) {
   const int f = view.node_index[node];
   if (f < 0)
     return 0;
   const NodeCracks& held = view.nodes[f];
-  const int m = held.crack[1] == s.crack;
-  const bool holds_own = held.crack[m] == s.crack;
-  const int field = holds_own && held.side[m] == s.side ? 1 << m : 0;
-  if (holds_own && s.alone)
+  const int m = held.crack[1] == s.own.crack;
+  const bool holds = held.crack[m] == s.own.crack;
+  int field = holds && held.side[m] == s.side ? 1 << m : 0;
+  if (holds ? s.own.tip && field > 0 : true) {
+    const bool crosses = detail::crosses_own(view, s, place);
+    if (crosses && !holds && held.crack[1] < 0)
+      return -1;
+    field = crosses ? field : 0;
+  }
+  const int candidate = view.candidate_start[f];
+  if (view.candidate[candidate] == s.own.crack && view.candidate_start[f + 1] == candidate + 1)
     return field;
-  return detail::trace_surface(view, s, held, field, holds_own);
+  return detail::cross_others(view, s, place, held, field);
 }
 
 }  // namespace riven

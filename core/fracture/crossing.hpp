@@ -97,22 +97,6 @@ RIVEN_INLINE int crossing(Vec2 p, Vec2 n, const Vec2* point, bool first, bool la
   return (side_a < 0) != (side_b < 0) ? from : 0;
 }
 
-/// Does the path to node n from a place just off the crack's point[0], on its `side`, pass through the crack at that
-/// point? A node on the crack is reached from neither side without crossing. point[-1] is read unless `first`,
-/// point[1] unless `last`.
-RIVEN_INLINE bool crosses_at(const Vec2* point, bool first, bool last, Side side, Vec2 n) {
-  const int up = side == Side::above ? 1 : -1;
-  if (first || last) {  // at a tip: only over the part of the crack that the path has beside it
-    const Vec2 a = first ? point[0] : point[-1], b = first ? point[1] : point[0];
-    const Vec2 along = first ? b - a : a - b;
-    return dot(n - point[0], along) > 0 && up * orientation(a, b, n) <= 0;
-  }
-  const int before = up * orientation(point[-1], point[0], n), after = up * orientation(point[0], point[1], n);
-  const int turn = up * orientation(point[-1], point[0], point[1]);
-  const bool same_side = turn >= 0 ? before > 0 && after > 0 : before > 0 || after > 0;
-  return !same_side;
-}
-
 /// The crossings of one path with one crack, added up. An odd count crosses; the particle's side is the direction that
 /// prevails, so that a path which enters a fold and leaves it again reports the side it comes from.
 struct CrossingSum {

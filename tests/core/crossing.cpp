@@ -110,25 +110,5 @@ TEST(Crossing, ReportsTheSideThatPrevailsInAFold) {
   EXPECT_EQ(cross_line(fold, {0, 3}, {0, .5}), Side::none);
 }
 
-TEST(Crossing, AtASurfacePointDependsOnTheSideOfTheSurface) {
-  const std::vector<Vec2> roof{{-1, -1}, {0, 0}, {1, -1}};
-  const auto at = [&](int k, Side side, Vec2 n) { return crosses_at(roof.data() + k, k == 0, k == 2, side, n); };
-  for (Vec2 over : {Vec2{0, 1}, Vec2{-1, 0}, Vec2{1, 0}, Vec2{2, -1}}) {
-    EXPECT_FALSE(at(1, Side::above, over));
-    EXPECT_TRUE(at(1, Side::below, over));
-  }
-  EXPECT_TRUE(at(1, Side::above, {0, -1}));
-  EXPECT_FALSE(at(1, Side::below, {0, -1}));
-  for (Side side : {Side::above, Side::below}) {
-    EXPECT_TRUE(at(1, side, {1, -1}));    // node on the crack
-    EXPECT_FALSE(at(0, side, {-2, -1}));  // beyond the tip
-    EXPECT_FALSE(at(2, side, {2, -2}));
-  }
-  EXPECT_TRUE(at(0, Side::below, {-1, 0}));  // behind the tip
-  EXPECT_FALSE(at(0, Side::above, {-1, 0}));
-  EXPECT_TRUE(at(2, Side::above, {.25, -1.25}));
-  EXPECT_FALSE(at(2, Side::below, {.25, -1.25}));
-}
-
 }  // namespace
 }  // namespace riven
