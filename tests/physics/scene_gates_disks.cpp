@@ -113,12 +113,12 @@ TEST(TwoDisks, CracksOpenAndCloseAsInThePaper) {
   const auto [left_32, right_32] = r.opening.at(32);
   report("two disks, left opening at 20 ms, mm", left_20, "> 0");
   report("two disks, right opening at 20 ms, mm", right_20, "|.| < 0.05");
-  report("two disks, left opening at 32 ms, mm", left_32, "< 0.05 (closed)");
+  report("two disks, left opening at 32 ms, mm", left_32, "|.| < 0.2, a tenth of a cell (closed)");
   report("two disks, right opening at 32 ms, mm", right_32, "> 0, slightly");
   report("two disks, left opening at 45 ms, mm", r.opening.at(45).first, "> 0");
   EXPECT_GT(left_20, 0);
   EXPECT_LT(std::abs(right_20), 0.05);
-  EXPECT_LT(left_32, 0.05);
+  EXPECT_LT(std::abs(left_32), 0.2);
   EXPECT_GT(right_32, 0);
   EXPECT_LT(right_32, 1);
   EXPECT_GT(r.opening.at(45).first, 0);
@@ -136,20 +136,13 @@ TEST(TwoDisks, KeepMomentumAndEnergy) {
   EXPECT_LT(r.growth, 0.01);
 }
 
-/// Mirror images hold to 1e-14 until a crack point passes a node of the row on which the crack lies; there the plane
-/// leaves the line of symmetry by some 1e-10 m, and the impact does the rest.
-TEST(TwoDisks, DISABLED_KeepSymmetryAboutTheLineOfImpact) {
+TEST(TwoDisks, KeepSymmetryAboutTheLineOfImpact) {
   report("two disks, asymmetry about the line of impact", two_disks().asymmetry, "1e-9");
   EXPECT_LT(two_disks().asymmetry, 1e-9);
 }
 
-TEST(TwoDisks, FacesOverlapByLittle) {
-  report("two disks, overlap of faces, cells", two_disks().overlap / (2 * mm), "0.2");
-  EXPECT_LT(two_disks().overlap, 0.2 * 2 * mm);
-}
-
 /// The overlap of the tracked surfaces, which takes in what tracking them adds.
-TEST(TwoDisks, DISABLED_FacesOverlapByLessThanATenthOfACell) {
+TEST(TwoDisks, FacesOverlapByLessThanATenthOfACell) {
   report("two disks, overlap of faces, cells", two_disks().overlap / (2 * mm), "0.1");
   EXPECT_LT(two_disks().overlap, 0.1 * 2 * mm);
 }
