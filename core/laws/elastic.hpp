@@ -35,8 +35,9 @@ inline Elasticity elasticity(const Material& m) {
 }
 
 /// Isotropic linear elasticity between co-rotated Kirchhoff stress and logarithmic strain, in rate form:
-///   tau <- R (tau + lambda tr(dU - I) I + 2 mu (dU - I)) R^T,   I + G = R dU,
-/// objective for increments of any rotation (Hughes and Winget 1980, with the exact polar decomposition).
+///   tau <- R (tau + lambda tr(e) I + 2 mu e) R^T,   e = ln dU = E - E^2 / 2 + O(E^3),   E = dU - I,   I + G = R dU,
+/// objective for increments of any rotation (Hughes and Winget 1980, with the exact polar decomposition). E alone would
+/// take a strain to and fro for a stretch of its square: stresses that creep, and energy that does as dt.
 /// In plane stress lambda is replaced by 2 lambda mu / (lambda + 2 mu).
 template <class Real>
 struct LinearElastic {
@@ -58,8 +59,10 @@ struct LinearElastic {
   RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
     const Rotation<Real> R = polar_rotation(G);
     // dU - I, in sums that have no unity in them; dU is symmetric, and its two shears are averaged
-    const Real exx = R.c_minus_1 + R.c * G.xx + R.s * G.yx, eyy = R.c_minus_1 + R.c * G.yy - R.s * G.xy;
-    const Real exy = Real(0.5) * (R.c * (G.xy + G.yx) + R.s * (G.yy - G.xx)), tr = lambda * (exx + eyy);
+    const Real Exx = R.c_minus_1 + R.c * G.xx + R.s * G.yx, Eyy = R.c_minus_1 + R.c * G.yy - R.s * G.xy;
+    const Real Exy = Real(0.5) * (R.c * (G.xy + G.yx) + R.s * (G.yy - G.xx));
+    const Real half = Real(0.5), exx = Exx - half * (Exx * Exx + Exy * Exy), eyy = Eyy - half * (Eyy * Eyy + Exy * Exy);
+    const Real exy = Exy - half * Exy * (Exx + Eyy), tr = lambda * (exx + eyy);
     const Real xx = p.xx + tr + Real(2) * mu * exx, yy = p.yy + tr + Real(2) * mu * eyy, xy = p.xy + Real(2) * mu * exy;
     // R (..) R^T about the mean stress, which does not turn
     const Real mean = Real(0.5) * (xx + yy), dev = Real(0.5) * (xx - yy);
