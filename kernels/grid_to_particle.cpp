@@ -113,7 +113,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
         p.y[first + k] += dy[k];
       });
       if constexpr (Stress)
-        update_stress_lanes(p, first, count, gradient, n.dt, law, seen);
+        update_stress_lanes<false>(p, first, count, gradient, n.dt, law, seen);
     }
     see.put_moves(tile, seen);
     if constexpr (Stress)

@@ -50,10 +50,6 @@ void sort_if_due(Simulation& m) {
     sort_particles(m.space, m.plan, m.state);
 }
 
-double half_if_averaged(const Simulation& m) {
-  return m.plan.update == StressUpdate::usavg ? 0.5 * m.state.clock.dt : m.state.clock.dt;
-}
-
 void book_fields(Simulation& m) {
   const double dt = m.state.clock.dt, damping = m.grid_damping();
   const GridSums sums = grid_sums(m.space, m.state, damping);
@@ -95,7 +91,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.contact, "contact before", "contact", contact_before_update);
   add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
   add(before, "stress before, forces", "",
-      [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, half_if_averaged(m), m.gravity()); });
+      [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.plan, m.state); });
   add(true, "advance grid", "", [before](Simulation& m) { advance_grid(m.space, m.state, before, m.grid_damping()); });
   add(p.constraints, "boundary after", "boundary",
@@ -118,8 +114,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(again && p.contact, "contact again", "contact", contact_after_extrapolation);
   add(again, "velocities again", "",
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
-  add(again, "stress after, move", "",
-      [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state, half_if_averaged(m)); });
+  add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
   add(p.cracks, "move cracks", "cracks", move_with_grid);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) { settle_constraints(m.state); });

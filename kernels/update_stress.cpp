@@ -26,8 +26,29 @@ RIVEN_INLINE bool gather_gradients(const Block<Real, Shape>& w, long first, int 
   return false;
 }
 
-template <class Shape, class Law, bool Cracked, class Real>
-void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt, Vec2 gravity) {
+/// -m times the stress that the gradients of the shape functions meet: tau, or tau M^T in USAVG.
+template <class Real>
+struct StressLanes {
+  alignas(64) Real xx[exec::lanes], xy[exec::lanes], yx[exec::lanes], yy[exec::lanes];
+
+  template <bool Averaged>
+  RIVEN_INLINE void take(const ParticleView<Real>& p, long first, int count) {
+    exec::for_lanes(count, [&](int k) RIVEN_LANE {
+      const long i = first + k;
+      const Real m = -p.mass[i], sxy = m * p.sxy[i];
+      Mat2<Real> P{m * p.sxx[i], sxy, sxy, m * p.syy[i]};
+      if constexpr (Averaged)
+        P = P * transposed(detail::middle(p, i));
+      xx[k] = P.xx;
+      xy[k] = P.xy;
+      yx[k] = P.yx;
+      yy[k] = P.yy;
+    });
+  }
+};
+
+template <class Shape, class Law, bool Cracked, bool Averaged, class Real>
+void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
   Real* q = s.grid.q.data();
   const int nx = s.grid.lattice.nx;
@@ -36,36 +57,40 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, d
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles see(s.watch);
-  const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(dt);
-  scatter_tiles<false>(space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice,
-                       static_cast<Real*>(nullptr), q, [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
-                         Block<Real, Shape> w;
-                         GradientLanes<Real> gradient;
-                         TileWatch<Real> seen;
-                         for (long first = begin; first < end; first += L) {
-                           const int count = static_cast<int>(std::min<long>(L, end - first));
-                           w.weigh(at, first);
-                           const bool crossing = gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
-                           update_stress_lanes(p, first, count, gradient, step, law, seen);
-                           for (int k = 0; k < count; ++k) {
-                             const long i = first + k;
-                             const Real m = p.mass[i], txy = -m * p.sxy[i];
-                             const Quad<Real> A{Real(0), Real(0), m * bx, m * by},
-                                 B{Real(0), Real(0), -m * p.sxx[i], txy}, C{Real(0), Real(0), txy, -m * p.syy[i]};
-                             if (crossing && extra.word[i] != 0)
-                               scatter_fields<false>(w, k, Real(0), A, B, C, to, extra.word[i], extra,
-                                                     static_cast<Real*>(nullptr), q);
-                             else
-                               scatter<false, true>(w, k, Real(0), A, B, C, to);
-                           }
-                         }
-                         see.put_J(tile, seen);
-                       });
+  const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
+  scatter_tiles<false>(
+      space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), q,
+      [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+        Block<Real, Shape> w;
+        GradientLanes<Real> gradient;
+        StressLanes<Real> stress;
+        TileWatch<Real> seen;
+        for (long first = begin; first < end; first += L) {
+          const int count = static_cast<int>(std::min<long>(L, end - first));
+          w.weigh(at, first);
+          const bool crossing = gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
+          if constexpr (Averaged)
+            find_middle(p, first, count, gradient, step);
+          update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+          stress.template take<Averaged>(p, first, count);
+          for (int k = 0; k < count; ++k) {
+            const long i = first + k;
+            const Real m = p.mass[i];
+            const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
+                C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
+            if (crossing && extra.word[i] != 0)
+              scatter_fields<false>(w, k, Real(0), A, B, C, to, extra.word[i], extra, static_cast<Real*>(nullptr), q);
+            else
+              scatter<false, true>(w, k, Real(0), A, B, C, to);
+          }
+        }
+        see.put_J(tile, seen);
+      });
   watch_J(s);
 }
 
-template <class Shape, class Law, bool Cracked, class Real>
-void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
+template <class Shape, class Law, bool Cracked, bool Averaged, class Real>
+void run_move(const exec::Space& space, State<Real, 2>& s) {
   constexpr int L = exec::lanes;
   const Real* again = s.grid.again.data();
   const int nx = s.grid.lattice.nx;
@@ -74,7 +99,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
   const ExtraSlots<Real> extra = extra_slots(s, false);
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles see(s.watch);
-  const Real step = Real(dt);
+  const Real step = Real(s.clock.dt);
   each_tile(space, "stress after, move", s.particles.tiles, [=](int tile, long begin, long end) {
     Block<Real, Shape> w;
     GradientLanes<Real> gradient;
@@ -83,7 +108,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
       const int count = static_cast<int>(std::min<long>(L, end - first));
       w.weigh(at, first);
       gather_gradients<Cracked>(w, first, count, again, nx, extra, gradient);
-      update_stress_lanes(p, first, count, gradient, step, law, seen);
+      update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
       exec::for_lanes(count, [&](int k) RIVEN_LANE {
         p.x[first + k] += p.step_x[first + k];
         p.y[first + k] += p.step_y[first + k];
@@ -97,29 +122,34 @@ void run_move(const exec::Space& space, State<Real, 2>& s, double dt) {
 }  // namespace
 
 template <class Real>
-void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt, Vec2 gravity) {
+void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   with_shape(plan.shape, [&](auto shape) {
     with_flag(plan.cracks, [&](auto cracked) {
-      with_law<Real>(plan.law, [&](auto law) {
-        run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value>(
-            space, plan, s, dt, gravity);
+      with_flag(plan.averaged(), [&](auto averaged) {
+        with_law<Real>(plan.law, [&](auto law) {
+          run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value,
+                     decltype(averaged)::value>(space, plan, s, gravity);
+        });
       });
     });
   });
 }
 
 template <class Real>
-void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Real, 2>& s, double dt) {
+void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   with_shape(plan.shape, [&](auto shape) {
     with_flag(plan.cracks, [&](auto cracked) {
-      with_law<Real>(plan.law, [&](auto law) {
-        run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value>(space, s, dt);
+      with_flag(plan.averaged(), [&](auto averaged) {
+        with_law<Real>(plan.law, [&](auto law) {
+          run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value,
+                   decltype(averaged)::value>(space, s);
+        });
       });
     });
   });
 }
 
-template void update_stress_and_forces(const exec::Space&, const Plan&, State<double, 2>&, double, Vec2);
-template void update_stress_and_move(const exec::Space&, const Plan&, State<double, 2>&, double);
+template void update_stress_and_forces(const exec::Space&, const Plan&, State<double, 2>&, Vec2);
+template void update_stress_and_move(const exec::Space&, const Plan&, State<double, 2>&);
 
 }  // namespace riven

@@ -8,11 +8,11 @@ namespace riven {
 /// Before the momentum update (USF, USAVG): strains from Grid::q = [vx vy . .], then the forces of the new stresses
 /// into the same groups.
 template <class Real>
-void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, double dt, Vec2 gravity);
+void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, Vec2 gravity);
 
 /// After the second extrapolation (MUSL, USAVG): strains from Grid::again = [vx vy . .], then particles move by
 /// Particles::step.
 template <class Real>
-void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&, double dt);
+void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
 
 }  // namespace riven

@@ -17,6 +17,16 @@ RIVEN_INLINE Mat2<Real> operator*(const Mat2<Real>& a, const Mat2<Real>& b) {
 }
 
 template <class Real>
+RIVEN_INLINE Mat2<Real> operator*(Real s, const Mat2<Real>& a) {
+  return {s * a.xx, s * a.xy, s * a.yx, s * a.yy};
+}
+
+template <class Real>
+RIVEN_INLINE Mat2<Real> transposed(const Mat2<Real>& a) {
+  return {a.xx, a.yx, a.xy, a.yy};
+}
+
+template <class Real>
 RIVEN_INLINE Mat2<Real> operator+(const Mat2<Real>& a, const Mat2<Real>& b) {
   return {a.xx + b.xx, a.xy + b.xy, a.yx + b.yx, a.yy + b.yy};
 }
@@ -37,6 +47,13 @@ RIVEN_INLINE Mat2<Real> exp_minus_identity(const Mat2<Real>& A) {
   const Real c = e + (Real(1) + e) * (q * (Real(0.5) + q * (Real(1) / 24)));
   const Real d = (Real(1) + e) * (Real(1) + q * (Real(1) / 6 + q * (Real(1) / 120)));
   return {c + d * (A.xx - s), d * A.xy, d * A.yx, c + d * (A.yy - s)};
+}
+
+/// (I + A)^-1.
+template <class Real>
+RIVEN_INLINE Mat2<Real> inverse_of_one_plus(const Mat2<Real>& A) {
+  const Real scale = Real(1) / (Real(1) + A.xx + A.yy + det(A));
+  return {scale * (Real(1) + A.yy), -scale * A.xy, -scale * A.yx, scale * (Real(1) + A.xx)};
 }
 
 /// det(I + G) - 1.

@@ -34,6 +34,7 @@ struct Plan {
 
   bool stress_before() const { return update == StressUpdate::usf || update == StressUpdate::usavg; }
   bool stress_after() const { return update != StressUpdate::usf; }
+  bool averaged() const { return update == StressUpdate::usavg; }
   bool extrapolate_again() const { return update == StressUpdate::musl || update == StressUpdate::usavg; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
   bool keeps_F() const { return law != LawChoice::linear_elastic; }
