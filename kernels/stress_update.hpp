@@ -26,12 +26,13 @@ struct GradientLanes {
   RIVEN_INLINE Mat2<Real> over(int k, Real dt) const { return {dt * xx[k], dt * xy[k], dt * yx[k], dt * yy[k]}; }
 };
 
-namespace detail {
-
+/// M of particle i.
 template <class Real>
 RIVEN_INLINE Mat2<Real> middle(const ParticleView<Real>& p, long i) {
   return {p.Mxx[i], p.Mxy[i], p.Myx[i], p.Myy[i]};
 }
+
+namespace detail {
 
 /// dF - I of particle i.
 template <bool Averaged, class Real>

@@ -38,7 +38,7 @@ struct StressLanes {
       const Real m = -p.mass[i], sxy = m * p.sxy[i];
       Mat2<Real> P{m * p.sxx[i], sxy, sxy, m * p.syy[i]};
       if constexpr (Averaged)
-        P = P * transposed(detail::middle(p, i));
+        P = P * transposed(middle(p, i));
       xx[k] = P.xx;
       xy[k] = P.xy;
       yx[k] = P.yx;

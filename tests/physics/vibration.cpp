@@ -5,6 +5,15 @@
 // law's P_xx = mu (Fx - 1/Fx) + lambda/2 (Fx Fy^2 - 1/Fx),
 //   dP_xx/dX = d2u/dX2 [ mu (1 + 1/Fx^2) + lambda/2 (Fy^2 + 1/Fx^2) ].
 // What is measured is the root-mean-square error of the displacement over all particles and over one period.
+//
+// Two errors of the quadrature by particles do not fall with the mesh, and are kept below the mesh's own:
+// - Linear functions integrate each cell's stress by the mean over its particles. Where these have moved by d, the
+// force
+//   on a node is that of the point d away: an error of the relative size A, on any mesh and with any number of
+//   particles. At A = 1e-4 it is 1.7e-4, as large as the mesh's error with 128 cells.
+// - Particles that cross cells lie unevenly under the nodes. What that adds to the forces falls with the particles per
+//   cell, not with the mesh. With 2 x 2 of them it is more than the mesh's error from 64 cells on, in every transfer
+//   and at any time step; so there are as many of them here as the finest mesh needs.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -57,12 +66,13 @@ void add_forces(Simulation& m, const Motion& motion, const std::vector<Vec2>& s,
 }
 
 /// RMS displacement error over the amplitude.
-double error(ShapeFunction shape, int cells, double amplitude) {
+double error(ShapeFunction shape, int cells, double amplitude, int particles_per_cell = 2) {
   Scene scene = empty_scene(1. / cells, {{0, 0}, {1, 1}}, LawKind::neo_hookean);
   scene.shape = shape;
   scene.cfl = 0.4;
   scene.limits.energy_growth = 1e9;  // the manufactured force's work is not booked
   scene.bodies = {body("square", Rectangle{{0, 0}, {1, 1}})};
+  scene.bodies[0].particles_per_cell = particles_per_cell;
   for (const int axis : {0, 1}) {
     scene.symmetry.push_back({axis, 0, +1});
     scene.symmetry.push_back({axis, 1, -1});
@@ -109,45 +119,64 @@ double error(ShapeFunction shape, int cells, double amplitude) {
   return std::sqrt(sum / static_cast<double>(count)) / amplitude;
 }
 
-/// Least observed order between neighbouring meshes of `from`, 2 from, ... `to` cells.
-double order(ShapeFunction shape, int from, int to, double amplitude) {
-  double least = 1e9, last = error(shape, from, amplitude);
-  for (int n = 2 * from; n <= to; n *= 2) {
-    const double now = error(shape, n, amplitude);
-    std::printf("%s, amplitude %g, %d cells: %.3e, order %.2f\n", name_of(shape).data(), amplitude, n, now,
-                std::log2(last / now));
-    least = std::min(least, std::log2(last / now));
-    last = now;
+/// Errors on meshes of `from`, 2 from, ... `to` cells.
+std::vector<double> errors(ShapeFunction shape, int from, int to, double amplitude, int particles_per_cell = 2) {
+  std::vector<double> list;
+  for (int n = from; n <= to; n *= 2) {
+    list.push_back(error(shape, n, amplitude, particles_per_cell));
+    std::printf("%s, amplitude %g, %d cells: %.3e", name_of(shape).data(), amplitude, n, list.back());
+    if (list.size() > 1)
+      std::printf(", order %.2f", std::log2(list[list.size() - 2] / list.back()));
+    std::printf("\n");
   }
+  return list;
+}
+
+/// Least order between neighbouring meshes.
+double least_order(const std::vector<double>& errors) {
+  double least = 1e9;
+  for (size_t k = 1; k < errors.size(); ++k)
+    least = std::min(least, std::log2(errors[k - 1] / errors[k]));
   return least;
 }
 
+/// Order over all meshes: slope of the line of least squares through log(error) against log(h).
+double mean_order(const std::vector<double>& errors) {
+  const double middle = 0.5 * (static_cast<double>(errors.size()) - 1);
+  double xx = 0, xy = 0;
+  for (size_t k = 0; k < errors.size(); ++k) {
+    const double x = static_cast<double>(k) - middle;
+    xx += x * x;
+    xy -= x * std::log2(errors[k]);
+  }
+  return xy / xx;
+}
+
 constexpr double small = 1e-4;  ///< no particle leaves its cell
-constexpr double large = 0.05;  ///< as far as three cells of 1/64
+constexpr double large = 0.05;  ///< as far as six cells of 1/128
 
 TEST(Vibration, LinearIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(order(ShapeFunction::linear, 16, 64, small), 1.8);
+  EXPECT_GE(mean_order(errors(ShapeFunction::linear, 16, 128, small)), 1.8);
+}
+/// Far enough below the smallest mesh's error, the particles' displacement leaves the order alone.
+TEST(Vibration, LinearIsOfSecondOrderOnEveryMeshWhereParticlesMoveLittle) {
+  EXPECT_GE(least_order(errors(ShapeFunction::linear, 16, 128, 0.1 * small)), 1.8);
 }
 TEST(Vibration, UGimpIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(order(ShapeFunction::ugimp, 16, 128, small), 1.8);
+  EXPECT_GE(least_order(errors(ShapeFunction::ugimp, 16, 128, small)), 1.8);
 }
 TEST(Vibration, BSplineIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(order(ShapeFunction::bspline, 16, 128, small), 1.8);
+  EXPECT_GE(least_order(errors(ShapeFunction::bspline, 16, 128, small)), 1.8);
 }
 
-// Bounds that are not reached, to be run with --gtest_also_run_disabled_tests. The last orders are 1.6, 0.8 and -1.8;
-// an eighth of the time step gives the same errors at 64 cells, and FMPM(2) filters only a part of them.
-TEST(Vibration, DISABLED_LinearIsOfSecondOrderOnTheFinestMesh) {
-  EXPECT_GE(order(ShapeFunction::linear, 64, 128, small), 1.8);
+TEST(Vibration, UGimpConvergesAcrossCells) {
+  EXPECT_GE(least_order(errors(ShapeFunction::ugimp, 16, 64, large, 8)), 1.5);
 }
-TEST(Vibration, DISABLED_UGimpConvergesAcrossCells) {
-  EXPECT_GE(order(ShapeFunction::ugimp, 16, 64, large), 1.5);
-}
-TEST(Vibration, DISABLED_BSplineIsOfSecondOrderAcrossCells) {
-  EXPECT_GE(order(ShapeFunction::bspline, 16, 128, large), 1.8);
+TEST(Vibration, BSplineIsOfSecondOrderAcrossCells) {
+  EXPECT_GE(least_order(errors(ShapeFunction::bspline, 16, 128, large, 10)), 1.8);
 }
 
-/// Across up to three cells the smooth functions stay within a per cent of the amplitude.
+/// With four particles per cell, and across up to three cells, the smooth functions stay within a per cent.
 TEST(Vibration, SmoothFunctionsStayAccurateAcrossCells) {
   EXPECT_LT(error(ShapeFunction::ugimp, 64, large), 0.01);
   EXPECT_LT(error(ShapeFunction::bspline, 64, large), 0.01);
@@ -156,13 +185,15 @@ TEST(Vibration, SmoothFunctionsStayAccurateAcrossCells) {
 /// Negative control: the error grows with every refinement, since the stress of a particle that changes its cell jumps
 /// to other nodes (Bardenhagen and Kober 2004).
 TEST(Vibration, LinearFailsAcrossCells) {
-  bool fails = false;
-  try {
-    fails = order(ShapeFunction::linear, 16, 64, large) < 0;
-  } catch (const Error& e) {
-    fails = e.code() == Exit::unstable;
+  for (const int particles_per_cell : {2, 8}) {
+    bool fails = false;
+    try {
+      fails = mean_order(errors(ShapeFunction::linear, 16, 64, large, particles_per_cell)) < 0;
+    } catch (const Error& e) {
+      fails = e.code() == Exit::unstable;
+    }
+    EXPECT_TRUE(fails) << particles_per_cell;
   }
-  EXPECT_TRUE(fails);
 }
 
 }  // namespace
