@@ -138,32 +138,64 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
   }
 }
 
+/// Number of the lowest bit of a word that is not 0.
+RIVEN_INLINE int lowest_bit(std::uint32_t word) {
+#if defined(__CUDA_ARCH__)
+  return __ffs(static_cast<int>(word)) - 1;
+#else
+  return __builtin_ctz(word);
+#endif
+}
+
+/// f(n, slot) for each of a particle's nodes that it sees across cracks.
+template <class Real, class Shape, class F>
+RIVEN_INLINE void each_crossing(const Block<Real, Shape>& w, int k, std::uint32_t word, const ExtraSlots<Real>& extra,
+                                const F& f) {
+  constexpr int N = Shape::width;
+  const int first = w.iy[k] * extra.nx + w.ix[k];
+  while (word != 0) {
+    const int n = lowest_bit(word) / field_bits;
+    f(n, extra.slot(first + n / N * extra.nx + n % N, field_of(word, n)));
+    word &= ~(3u << (field_bits * n));
+  }
+}
+
 /// The same for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`, `grid_q`.
 template <bool Mass, class Real, class Shape>
 RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
                                   const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
                                   std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
   constexpr int N = Shape::width;
+  Real *q[N * N], *m[N * N];
+  const int first = to.at(w.ix[k], w.iy[k]);
+  for (int n = 0; n < N * N; ++n) {
+    const long at = first + static_cast<long>(n / N) * to.stride + n % N;
+    q[n] = to.q + 4 * at;
+    m[n] = to.mass + at;
+  }
+  Quad<Real> apart[N * N];  // where other tiles may write to the slots, too
+  Real apart_mass[N * N];
+  each_crossing(w, k, word, extra, [&](int n, int slot) {
+    q[n] = extra.atomic ? reinterpret_cast<Real*>(&(apart[n] = Quad<Real>{})) : grid_q + 4L * slot;
+    m[n] = extra.atomic ? &(apart_mass[n] = Real(0)) : grid_mass + slot;
+  });
+#pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
     const Quad<Real> row = w.sy[j][k] * A + w.gy[j][k] * C, across = w.sy[j][k] * B;
+#pragma GCC unroll 3
     for (int i = 0; i < N; ++i) {
-      const Quad<Real> value = w.sx[i][k] * row + w.gx[i][k] * across;
-      const Real m = mass * w.sx[i][k] * w.sy[j][k];
-      const int x = w.ix[k] + i, y = w.iy[k] + j, f = field_of(word, j * N + i);
-      if (f == 0) {
-        const int n = to.at(x, y);
-        quad_at<Real>(to.q + 4L * n) += value;
-        if constexpr (Mass)
-          to.mass[n] += m;
-      } else {
-        const int s = extra.slot(y * extra.nx + x, f);
-        for (int c = 0; c < 4; ++c)
-          add(grid_q[4L * s + c], value[c], extra.atomic);
-        if constexpr (Mass)
-          add(grid_mass[s], m, extra.atomic);
-      }
+      quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row + w.gx[i][k] * across;
+      if constexpr (Mass)
+        *m[j * N + i] += mass * w.sx[i][k] * w.sy[j][k];
     }
   }
+  if (extra.atomic)
+    each_crossing(w, k, word, extra, [&](int n, int slot) {
+      for (int c = 0; c < 4; ++c)
+        exec::atomic_add(grid_q[4L * slot + c], apart[n][c]);
+      if constexpr (Mass)
+        exec::atomic_add(grid_mass[slot], apart_mass[n]);
+    });
 }
 
 /// Four node values at a particle, and their gradients.

@@ -101,12 +101,9 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
     for (long first = begin; first < end; first += L) {
       const int count = static_cast<int>(std::min<long>(L, end - first));
       w.weigh(at, first);
-      if (Cracked && any_crossing(extra, first, count))
-        for (int k = 0; k < count; ++k)
-          gather_motion<Stress, High>(w, k, q, high, nx, extra.word[first + k], extra, high_gradient, motion, gradient);
-      else
-        for (int k = 0; k < count; ++k)
-          gather_motion<Stress, High>(w, k, q, high, nx, 0, extra, high_gradient, motion, gradient);
+      each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+        gather_motion<Stress, High>(w, k, q, high, nx, word, extra, high_gradient, motion, gradient);
+      });
       update_motion(p, first, count, motion, n, dx, dy, seen);
       exec::for_lanes(count, [&](int k) RIVEN_LANE {
         p.x[first + k] += dx[k];
@@ -135,33 +132,31 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles see(s.watch);
-  scatter_tiles<false>(space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
-                       static_cast<Real*>(nullptr), again,
-                       [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
-                         Block<Real, Shape> w;
-                         MotionLanes<Real> motion;
-                         GradientLanes<Real> none;
-                         TileWatch<Real> seen;
-                         for (long first = begin; first < end; first += L) {
-                           const int count = static_cast<int>(std::min<long>(L, end - first));
-                           w.weigh(at, first);
-                           const bool crossing = Cracked && any_crossing(extra, first, count);
-                           for (int k = 0; k < count; ++k)
-                             gather_motion<false, High>(w, k, q, high, nx, crossing ? extra.word[first + k] : 0, extra,
-                                                        false, motion, none);
-                           update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
-                           for (int k = 0; k < count; ++k) {
-                             const long i = first + k;
-                             const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
-                             if (crossing && extra.word[i] != 0)
-                               scatter_fields<false>(w, k, Real(0), A, zero, zero, to, extra.word[i], extra,
-                                                     static_cast<Real*>(nullptr), again);
-                             else
-                               scatter<false, false>(w, k, Real(0), A, zero, zero, to);
-                           }
-                         }
-                         see.put_moves(tile, seen);
-                       });
+  scatter_tiles<false>(
+      space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
+      static_cast<Real*>(nullptr), again, [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+        Block<Real, Shape> w;
+        MotionLanes<Real> motion;
+        GradientLanes<Real> none;
+        TileWatch<Real> seen;
+        for (long first = begin; first < end; first += L) {
+          const int count = static_cast<int>(std::min<long>(L, end - first));
+          w.weigh(at, first);
+          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+            gather_motion<false, High>(w, k, q, high, nx, word, extra, false, motion, none);
+          });
+          update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
+          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+            const long i = first + k;
+            const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
+            if (word != 0)
+              scatter_fields<false>(w, k, Real(0), A, zero, zero, to, word, extra, static_cast<Real*>(nullptr), again);
+            else
+              scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+          });
+        }
+        see.put_moves(tile, seen);
+      });
   watch_moves(s);
 }
 

@@ -35,19 +35,18 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               txy[k] = -m[k] * p.sxy[first + k];
                             }
                           });
-                          const bool crossing = Cracked && any_crossing(extra, first, count);
-                          for (int k = 0; k < count; ++k) {
+                          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
                             Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
                             if constexpr (Forces) {
                               A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
                               B = Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
                               C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
                             }
-                            if (Cracked && crossing && extra.word[first + k] != 0)
-                              scatter_fields<true>(w, k, m[k], A, B, C, to, extra.word[first + k], extra, mass, q);
+                            if (word != 0)
+                              scatter_fields<true>(w, k, m[k], A, B, C, to, word, extra, mass, q);
                             else
                               scatter<true, Forces>(w, k, m[k], A, B, C, to);
-                          }
+                          });
                         }
                       });
 }

@@ -12,18 +12,11 @@ namespace riven {
 namespace {
 
 template <bool Cracked, class Real, class Shape>
-RIVEN_INLINE bool gather_gradients(const Block<Real, Shape>& w, long first, int count, const Real* q, int nx,
+RIVEN_INLINE void gather_gradients(const Block<Real, Shape>& w, long first, int count, const Real* q, int nx,
                                    const ExtraSlots<Real>& extra, GradientLanes<Real>& g) {
-  if (Cracked && any_crossing(extra, first, count)) {
-    for (int k = 0; k < count; ++k) {
-      const std::uint32_t word = extra.word[first + k];
-      g.set(k, word ? gather_fields<true>(w, k, q, word, extra) : gather<true>(w, k, q, nx));
-    }
-    return true;
-  }
-  for (int k = 0; k < count; ++k)
-    g.set(k, gather<true>(w, k, q, nx));
-  return false;
+  each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+    g.set(k, word != 0 ? gather_fields<true>(w, k, q, word, extra) : gather<true>(w, k, q, nx));
+  });
 }
 
 /// -m times the stress that the gradients of the shape functions meet: tau, or tau M^T in USAVG.
@@ -68,21 +61,20 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
-          const bool crossing = gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
+          gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
           if constexpr (Averaged)
             find_middle(p, first, count, gradient, step);
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
           stress.template take<Averaged>(p, first, count);
-          for (int k = 0; k < count; ++k) {
-            const long i = first + k;
-            const Real m = p.mass[i];
+          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+            const Real m = p.mass[first + k];
             const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
                 C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
-            if (crossing && extra.word[i] != 0)
-              scatter_fields<false>(w, k, Real(0), A, B, C, to, extra.word[i], extra, static_cast<Real*>(nullptr), q);
+            if (word != 0)
+              scatter_fields<false>(w, k, Real(0), A, B, C, to, word, extra, static_cast<Real*>(nullptr), q);
             else
               scatter<false, true>(w, k, Real(0), A, B, C, to);
-          }
+          });
         }
         see.put_J(tile, seen);
       });

@@ -1,5 +1,7 @@
 // The state as kernels see it: pointers and numbers, captured by value.
 #pragma once
+#include <type_traits>
+
 #include "core/state/state.hpp"
 #include "kernels/block.hpp"
 
@@ -61,6 +63,18 @@ RIVEN_INLINE bool any_crossing(const ExtraSlots<Real>& e, long first, int count)
   for (int k = 0; k < count; ++k)
     any |= e.word[first + k];
   return any != 0;
+}
+
+/// body(k, word) for the particles of a block; word tells which nodes a particle sees across cracks. Where none does,
+/// it is a constant 0, so that the loop over most particles is compiled without the way out to the rare others.
+template <bool Cracked, class Real, class Body>
+RIVEN_INLINE void each_particle(const ExtraSlots<Real>& e, long first, int count, const Body& body) {
+  if (Cracked && any_crossing(e, first, count))
+    for (int k = 0; k < count; ++k)
+      body(k, e.word[first + k]);
+  else
+    for (int k = 0; k < count; ++k)
+      body(k, std::integral_constant<std::uint32_t, 0>{});
 }
 
 }  // namespace riven
