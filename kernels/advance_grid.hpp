@@ -1,4 +1,4 @@
-// The momentum update on the grid, for every slot (seed 000, eq. 1; seed 002, task 4):
+// The momentum update on the grid, for every slot (Nairn and Aimene, eq. 1; Nairn 2003, task 4):
 //   a = f / m - kappa v,   v~ = p / m + a dt.
 #pragma once
 #include "core/exec/space.hpp"

@@ -1,4 +1,4 @@
-// Forces on chosen particles: f_ij += sum f_p S_ip (seed 002, eq. 28), into the fields that the particle sees.
+// Forces on chosen particles: f_ij += sum f_p S_ip (Nairn 2003, eq. 28), into the fields that the particle sees.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"

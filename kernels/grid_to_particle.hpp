@@ -1,5 +1,5 @@
-// Grid to particles (seed 000, section 2.1.1). With a = sum S f/m and v~ = sum S (p + f dt)/m of each particle's
-// fields,
+// Grid to particles (Nairn and Aimene, section 2.1.1). With a = sum S f/m and v~ = sum S (p + f dt)/m of each
+// particle's fields,
 //   FLIP      V' = V + a dt
 //   PIC       V' = (1 - alpha) (V + a dt) + alpha v~
 //   XPIC(k)   V' = S v(k)(p) + dt a
@@ -26,7 +26,7 @@ template <class Real>
 void grid_to_particle(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&, bool with_stress);
 
 /// Velocities only, and at once their momenta back to Grid::again by the old shape functions; the move is kept in
-/// Particles::step until the stresses are updated (MUSL, USAVG; seed 002, task 6c).
+/// Particles::step until the stresses are updated (MUSL, USAVG; Nairn 2003, task 6c).
 template <class Real>
 void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
 

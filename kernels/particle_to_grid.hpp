@@ -1,4 +1,4 @@
-// Particles to grid, for every velocity field j of node i (seed 002, eqs. 26 and 28; seed 000, eq. 1):
+// Particles to grid, for every velocity field j of node i (Nairn 2003, eqs. 26 and 28; Nairn and Aimene, eq. 1):
 //   m_ij = sum m_p S_ip,   p_ij = sum m_p v_p S_ip,   f_ij = sum -m_p (tau_p/rho0) . G_ip + m_p b S_ip.
 #pragma once
 #include "core/exec/space.hpp"

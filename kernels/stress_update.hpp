@@ -1,4 +1,4 @@
-// Takes the stresses of a block of particles through one strain increment (seed 002, eqs. 34-36), then the law:
+// Takes the stresses of a block of particles through one strain increment (Nairn 2003, eqs. 34-36), then the law:
 //   A = dt grad v_p,   grad v_p = sum v_ij (x) G_ip,
 //   USL, MUSL, USF   dF = exp(A)
 //   USAVG            dF = exp(A M / 2) before and after the momentum update,   M = (I + A/2)^-1 of the one before.

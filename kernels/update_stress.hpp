@@ -1,4 +1,4 @@
-// Stress updates that are passes of their own (seed 002, tasks 2 and 6c).
+// Stress updates that are passes of their own (Nairn 2003, tasks 2 and 6c).
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"

@@ -146,7 +146,7 @@ struct Output {
   double history_every = 0;  ///< s; 0 means 1/500 of the run
   Sidecar sidecar = Sidecar::none;
   std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
-  double fringe_constant = 0;       ///< 1/Pa (seed 002, eq. 23)
+  double fringe_constant = 0;       ///< 1/Pa (Nairn 2003, eq. 23)
 };
 
 /// Where a run stops because it went wrong.

@@ -11,7 +11,7 @@ namespace riven {
 
 /// Crack c owns the points [start[c], start[c+1]); its segments join neighbouring points. Walking from the
 /// first point to the last, "above" is the left-hand side: the signed area (p, a, b) of a particle p above the
-/// segment a-b is positive. The normal points from above to below (seed 002, section 2.2).
+/// segment a-b is positive. The normal points from above to below (Nairn 2003, section 2.2).
 struct Cracks {
   std::vector<std::string> names;
   std::vector<ContactSettings> contact;              ///< law of each crack

@@ -1,6 +1,7 @@
 // The history, the summary and the progress line.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -121,11 +122,17 @@ void run(int descriptor, bool quiet) {
     progress.update(step, step, 1, "wave speed");
 }
 
+/// All that arrives until a tenth of a second passes without more: a terminal hands on in pieces what it was written.
 std::string read_all(int descriptor) {
+  std::string all;
   char text[4096];
-  fcntl(descriptor, F_SETFL, O_NONBLOCK);
-  const ssize_t n = ::read(descriptor, text, sizeof text);
-  return n > 0 ? std::string(text, static_cast<std::size_t>(n)) : "";
+  for (pollfd arrives{descriptor, POLLIN, 0}; poll(&arrives, 1, 100) > 0;) {
+    const ssize_t n = ::read(descriptor, text, sizeof text);
+    if (n <= 0)
+      break;
+    all.append(text, static_cast<std::size_t>(n));
+  }
+  return all;
 }
 
 TEST(ResultsProgress, ATerminalSeesTheEndAndANewLine) {
