@@ -81,7 +81,7 @@ struct FixedNodes {
   std::optional<TimeFunction> velocity[2];  ///< m/s; an empty component is free
 };
 
-/// A symmetry plane: no normal velocity on the grid line, mirror images behind it.
+/// A symmetry plane: no normal velocity on the grid line and behind it.
 struct SymmetryPlane {
   int axis = 0;         ///< 0: the plane x = position, 1: the plane y = position
   double position = 0;  ///< m; on a grid line

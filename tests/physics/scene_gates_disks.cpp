@@ -124,6 +124,12 @@ TEST(TwoDisks, CracksOpenAndCloseAsInThePaper) {
   EXPECT_GT(r.opening.at(45).first, 0);
 }
 
+/// Closed by the measure of the right crack. The tracked faces of the left one rest 0.1 cells apart whenever it is
+/// shut.
+TEST(TwoDisks, DISABLED_LeftCrackIsShutAt32) {
+  EXPECT_LT(std::abs(two_disks().opening.at(32).first), 0.05);
+}
+
 TEST(TwoDisks, KeepMomentumAndEnergy) {
   const TwoDisks& r = two_disks();
   report("two disks, momentum drift", r.momentum, "1e-12");
@@ -271,27 +277,16 @@ TEST(FiveDisks, TipsGatherFringesAndDifferFromEachOther) {
   EXPECT_GT(std::abs(r.tip[0] / r.tip[1] - 1), 0.01);
 }
 
-/// Why the disk without a crack is the measure, and not disk 2: there the fringes of the points of contact and of a
-/// wave one diameter further on cross the same places. Neither here nor on a finer grid do both tips have twice as
-/// many.
-TEST(FiveDisks, NoProportionToTheFringesOfDiskTwoHolds) {
-  const FiveDisks fine = run_five_disks({"grid.cell=0.423333333333 mm"});
-  int grid = 30;
-  for (const FiveDisks& r : {five_disks(), fine}) {
-    double least[2] = {9, 9};
-    for (int e = 0; e < 2; ++e) {
-      least[0] = std::min(least[0], r.tip[e] / r.same[e]);
-      least[1] = std::min(least[1], r.tip[e] / r.mirror[e]);
-      report(fmt::format("five disks, D / {}, fringes at the {} tip over those at the same place of disk 2", grid,
-                         e == 0 ? "left" : "right"),
-             r.tip[e] / r.same[e], "-");
-      report(fmt::format("five disks, D / {}, fringes at the {} tip over those at its image in disk 2", grid,
-                         e == 0 ? "left" : "right"),
-             r.tip[e] / r.mirror[e], "-");
-    }
-    EXPECT_LT(least[0], 2);
-    EXPECT_LT(least[1], 2);
-    grid *= 2;
+/// The gate as it was set, against disk 2, where the fringes of the points of contact and of a wave one diameter
+/// further on cross the same places. It does not hold at both tips, here or on a grid twice as fine.
+TEST(FiveDisks, DISABLED_TipsGatherTwiceTheFringesOfDiskTwo) {
+  const FiveDisks& r = five_disks();
+  for (int e = 0; e < 2; ++e) {
+    const std::string tip = e == 0 ? "left" : "right";
+    report("five disks, fringes at the " + tip + " tip over those at the same place of disk 2", r.tip[e] / r.same[e],
+           "2");
+    report("five disks, fringes at the " + tip + " tip over those at its image in disk 2", r.tip[e] / r.mirror[e], "2");
+    EXPECT_GE(r.tip[e], 2 * r.mirror[e]) << e;
   }
 }
 
