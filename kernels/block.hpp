@@ -77,6 +77,7 @@ struct NodeTarget {
 template <class Real>
 struct ExtraSlots {
   const std::uint32_t* word = nullptr;  ///< CrackFields::fields
+  const int* tile_marked = nullptr;     ///< CrackFields::tile_marked
   const int* extra = nullptr;
   int nodes = 0;
   int nx = 0;

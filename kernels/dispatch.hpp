@@ -2,7 +2,9 @@
 //
 //   shape   linear, uGIMP, B-spline
 //   law     linear elastic, neo-Hookean, both          (only where stresses are updated)
-//   cracks  without, with
+//   flags   of one kernel each
+//
+// Whether a block of particles meets cracks is seen block by block: tiles.hpp.
 #pragma once
 #include <type_traits>
 

@@ -80,7 +80,7 @@ StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
   return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping)};
 }
 
-template <class Shape, class Law, bool Cracked, bool High, bool Stress, class Real>
+template <class Shape, class Law, bool High, bool Stress, class Real>
 void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) {
   constexpr int L = exec::lanes;
   const Real *q = s.grid.q.data(), *high = s.grid.high.data();
@@ -91,37 +91,34 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
-  const WatchTiles see(s.watch);
-  each_tile(space, "grid to particle", s.particles.tiles, [=](int tile, long begin, long end) {
-    Block<Real, Shape> w;
-    MotionLanes<Real> motion;
-    GradientLanes<Real> gradient;
-    alignas(64) Real dx[L], dy[L];
-    TileWatch<Real> seen;
-    for (long first = begin; first < end; first += L) {
-      const int count = static_cast<int>(std::min<long>(L, end - first));
-      w.weigh(at, first);
-      each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-        gather_motion<Stress, High>(w, k, q, high, nx, word, extra, high_gradient, motion, gradient);
-      });
-      update_motion(p, first, count, motion, n, dx, dy, seen);
-      exec::for_lanes(count, [&](int k) RIVEN_LANE {
-        p.x[first + k] += dx[k];
-        p.y[first + k] += dy[k];
-      });
-      if constexpr (Stress)
-        update_stress_lanes<false>(p, first, count, gradient, n.dt, law, seen);
-    }
-    see.put_moves(tile, seen);
-    if constexpr (Stress)
-      see.put_J(tile, seen);
-  });
+  const WatchTiles<Real, true, Stress> see(s.watch);
+  each_tile(space, "grid to particle", s.particles.tiles, extra, see,
+            [=](auto crossing, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
+              Block<Real, Shape> w;
+              MotionLanes<Real> motion;
+              GradientLanes<Real> gradient;
+              alignas(64) Real dx[L], dy[L];
+              for (long first = begin; first < end; first += L) {
+                const int count = static_cast<int>(std::min<long>(L, end - first));
+                w.weigh(at, first);
+                each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                  gather_motion<Stress, High>(w, k, q, high, nx, word, extra, high_gradient, motion, gradient);
+                });
+                update_motion(p, first, count, motion, n, dx, dy, seen);
+                exec::for_lanes(count, [&](int k) RIVEN_LANE {
+                  p.x[first + k] += dx[k];
+                  p.y[first + k] += dy[k];
+                });
+                if constexpr (Stress)
+                  update_stress_lanes<false>(p, first, count, gradient, n.dt, law, seen);
+              }
+            });
   watch_moves(s);
   if constexpr (Stress)
     watch_J(s);
 }
 
-template <class Shape, bool Cracked, bool High, class Real>
+template <class Shape, bool High, class Real>
 void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
   constexpr int L = exec::lanes;
   const Real *q = s.grid.q.data(), *high = s.grid.high.data();
@@ -131,22 +128,22 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
-  const WatchTiles see(s.watch);
+  const WatchTiles<Real, true, false> see(s.watch);
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
-      static_cast<Real*>(nullptr), again, [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+      static_cast<Real*>(nullptr), again, extra, see,
+      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         MotionLanes<Real> motion;
         GradientLanes<Real> none;
-        TileWatch<Real> seen;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
-          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
             gather_motion<false, High>(w, k, q, high, nx, word, extra, false, motion, none);
           });
           update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
-          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
             const long i = first + k;
             const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
             if (word != 0)
@@ -155,7 +152,6 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
               scatter<false, false>(w, k, Real(0), A, zero, zero, to);
           });
         }
-        see.put_moves(tile, seen);
       });
   watch_moves(s);
 }
@@ -166,17 +162,14 @@ template <class Real>
 void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule,
                       bool with_stress) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(plan.cracks, [&](auto cracked) {
-      with_flag(rule.high, [&](auto high) {
-        using Shape = typename decltype(shape)::type;
-        if (with_stress)
-          with_law<Real>(plan.law, [&](auto law) {
-            run<Shape, typename decltype(law)::type, decltype(cracked)::value, decltype(high)::value, true>(space, s,
-                                                                                                            rule);
-          });
-        else
-          run<Shape, LinearElastic<Real>, decltype(cracked)::value, decltype(high)::value, false>(space, s, rule);
-      });
+    with_flag(rule.high, [&](auto high) {
+      using Shape = typename decltype(shape)::type;
+      if (with_stress)
+        with_law<Real>(plan.law, [&](auto law) {
+          run<Shape, typename decltype(law)::type, decltype(high)::value, true>(space, s, rule);
+        });
+      else
+        run<Shape, LinearElastic<Real>, decltype(high)::value, false>(space, s, rule);
     });
   });
 }
@@ -184,11 +177,8 @@ void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>
 template <class Real>
 void grid_to_particle_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(plan.cracks, [&](auto cracked) {
-      with_flag(rule.high, [&](auto high) {
-        run_again<typename decltype(shape)::type, decltype(cracked)::value, decltype(high)::value>(space, plan, s,
-                                                                                                   rule);
-      });
+    with_flag(rule.high, [&](auto high) {
+      run_again<typename decltype(shape)::type, decltype(high)::value>(space, plan, s, rule);
     });
   });
 }

@@ -7,13 +7,14 @@
 #include "kernels/prescribe_velocities.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/views.hpp"
+#include "kernels/watch.hpp"
 
 namespace riven {
 
 namespace {
 
 /// next += S^T M S term, in one pass over the particles.
-template <class Shape, bool Cracked, class Real>
+template <class Shape, class Real>
 void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   constexpr int L = exec::lanes;
   const Real* term = s.grid.term.data();
@@ -23,22 +24,21 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   scatter_tiles<false>(
-      space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), next,
-      [=](int, long begin, long end, const NodeTarget<Real>& to) {
+      space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), next, extra,
+      WatchNothing{}, [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
         Block<Real, Shape> w;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
-          for (int k = 0; k < count; ++k) {
-            const std::uint32_t word = Cracked ? extra.word[first + k] : 0;
+          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
             const Quad<Real> v =
-                word ? gather_fields<false>(w, k, term, word, extra).value : gather<false>(w, k, term, nx).value;
+                word != 0 ? gather_fields<false>(w, k, term, word, extra).value : gather<false>(w, k, term, nx).value;
             const Quad<Real> mv = mass[first + k] * v, zero{};
-            if (word)
+            if (word != 0)
               scatter_fields<false>(w, k, Real(0), mv, zero, zero, to, word, extra, static_cast<Real*>(nullptr), next);
             else
               scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
-          }
+          });
         }
       });
 }
@@ -60,11 +60,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
         quad_at<Real>(next + 4 * n) = Quad<Real>{};
       });
   for (int j = 1; j < plan.order; ++j) {
-    with_shape(plan.shape, [&](auto shape) {
-      with_flag(plan.cracks, [&](auto cracked) {
-        smooth<typename decltype(shape)::type, decltype(cracked)::value>(space, plan, s);
-      });
-    });
+    with_shape(plan.shape, [&](auto shape) { smooth<typename decltype(shape)::type>(space, plan, s); });
     exec::parallel_for(space, "higher orders: term", slots, [=, term = g.term.data(), next = g.next.data()](long n) {
       const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
       quad_at<Real>(next + 4 * n) = quad_at<Real>(term + 4 * n) + (-inverse) * quad_at<Real>(next + 4 * n);

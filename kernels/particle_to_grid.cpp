@@ -5,12 +5,13 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/views.hpp"
+#include "kernels/watch.hpp"
 
 namespace riven {
 
 namespace {
 
-template <class Shape, bool Cracked, bool Forces, class Real>
+template <class Shape, bool Forces, class Real>
 void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
   Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
@@ -18,8 +19,9 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const Real bx = Real(gravity.x), by = Real(gravity.y);
-  scatter_tiles<true>(space, "particle to grid", plan.scatter, s.particles.tiles, s.grid.lattice, mass, q,
-                      [=](int, long begin, long end, const NodeTarget<Real>& to) {
+  scatter_tiles<true>(space, "particle to grid", plan.scatter, s.particles.tiles, s.grid.lattice, mass, q, extra,
+                      WatchNothing{},
+                      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                         Block<Real, Shape> w;
                         alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
                         for (long first = begin; first < end; first += L) {
@@ -35,7 +37,7 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               txy[k] = -m[k] * p.sxy[first + k];
                             }
                           });
-                          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
                             Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
                             if constexpr (Forces) {
                               A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
@@ -68,10 +70,8 @@ void clear_grid(const exec::Space& space, State<Real, 2>& s) {
 template <class Real>
 void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>& s, bool with_forces, Vec2 gravity) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(plan.cracks, [&](auto cracked) {
-      with_flag(with_forces, [&](auto forces) {
-        run<typename decltype(shape)::type, decltype(cracked)::value, decltype(forces)::value>(space, plan, s, gravity);
-      });
+    with_flag(with_forces, [&](auto forces) {
+      run<typename decltype(shape)::type, decltype(forces)::value>(space, plan, s, gravity);
     });
   });
 }

@@ -7,6 +7,9 @@
 // Particles may have drifted by one cell since they were sorted, and see nodes up to one more away: a tile of 8 x 8
 // cells writes to the nodes -2 .. 9 around its corner, and shares all but the nodes 2 .. 5 with its neighbours.
 #pragma once
+#include <algorithm>
+#include <type_traits>
+
 #include "core/exec/parallel.hpp"
 #include "core/state/particles.hpp"
 #include "kernels/block.hpp"
@@ -16,12 +19,58 @@ namespace riven {
 inline constexpr int tile_margin = 2;
 inline constexpr int tile_reach = Lattice::tile + 2 * tile_margin;
 
-/// body(tile, first, last) for every tile that holds particles; bodies only read the grid.
-template <class Body>
-void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const Body& body) {
+namespace detail {
+
+/// Compiled once for each body and kind of stretch, whoever calls it.
+template <class Body, class Crossing, class... More>
+RIVEN_ONCE void run_stretch(const Body& body, Crossing crossing, long first, long last, More&... more) {
+  const Body own = body;  // what a body writes cannot change what it captured
+  own(crossing, first, last, more...);
+}
+
+/// True if some particle of the block sees a node across a crack.
+template <class Real>
+RIVEN_INLINE bool any_crossing(const ExtraSlots<Real>& e, long first, long last) {
+  std::uint32_t any = 0;
+  for (long p = first; p < last; ++p)
+    any |= e.word[p];
+  return any != 0;
+}
+
+/// body(crossing, first, last, more...) for a tile, cut into stretches of blocks in which no particle sees a node
+/// across a crack (std::false_type) and of blocks in which some do (std::true_type).
+template <class Real, class Body, class... More>
+RIVEN_INLINE void each_stretch(const ExtraSlots<Real>& e, int tile, long first, long last, const Body& body,
+                               More&... more) {
+  if (!e.word || e.tile_marked[tile] == 0)
+    return run_stretch(body, std::false_type{}, first, last, more...);
+  const auto block_end = [last](long begin) { return std::min<long>(last, begin + exec::lanes); };
+  while (first < last) {
+    const bool crossing = any_crossing(e, first, block_end(first));
+    long end = block_end(first);
+    while (end < last && any_crossing(e, end, block_end(end)) == crossing)
+      end = block_end(end);
+    if (crossing)
+      run_stretch(body, std::true_type{}, first, end, more...);
+    else
+      run_stretch(body, std::false_type{}, first, end, more...);
+    first = end;
+  }
+}
+
+}  // namespace detail
+
+/// body(crossing, first, last, seen) for the stretches of every tile that holds particles; bodies only read the grid.
+/// `seen` is of type Watch::Seen, and goes to `watch` when the tile is done.
+template <class Real, class Watch, class Body>
+void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const ExtraSlots<Real>& extra,
+               const Watch& watch, const Body& body) {
   exec::parallel_tasks(space, label, static_cast<long>(tiles.by_colour.size()),
-                       [body, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
-                         body(list[t], long{start[list[t]]}, long{start[list[t] + 1]});
+                       [=, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
+                         const int tile = list[t];
+                         typename Watch::Seen seen{};
+                         detail::each_stretch(extra, tile, start[tile], start[tile + 1], body, seen);
+                         watch.put(tile, seen);
                        });
 }
 
@@ -60,20 +109,26 @@ void flush(const Lattice& lattice, int corner_x, int corner_y, const Real* mass,
 
 }  // namespace detail
 
-/// body(tile, first, last, target) for every tile that holds particles; bodies add to the nodes of `target` and to
-/// the extra slots. With Mass false nothing is added to the masses.
-template <bool Mass, class Real, class Body>
+/// body(crossing, first, last, target, seen) for the stretches of every tile that holds particles; bodies add to the
+/// nodes of `target` and to the extra slots. With Mass false nothing is added to the masses.
+template <bool Mass, class Real, class Watch, class Body>
 void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind, const Tiles& tiles,
-                   const Lattice& lattice, Real* grid_mass, Real* grid_q, const Body& body) {
-  const exec::Stopwatch watch(space.timers(), label);
+                   const Lattice& lattice, Real* grid_mass, Real* grid_q, const ExtraSlots<Real>& extra,
+                   const Watch& watch, const Body& body) {
+  const exec::Stopwatch timed(space.timers(), label);
   const int* list = tiles.by_colour.data();
   const int* start = tiles.start.data();
+  const auto run_tile = [=](int tile, const NodeTarget<Real>& to) {
+    typename Watch::Seen seen{};
+    detail::each_stretch(extra, tile, start[tile], start[tile + 1], body, to, seen);
+    watch.put(tile, seen);
+  };
   if (kind == ScatterKind::ordered) {
     const NodeTarget<Real> whole{grid_mass, grid_q, lattice.nx, 0, 0};
     for (int colour = 0; colour < 4; ++colour) {
       const int* some = list + tiles.colour_start[colour];
       exec::launch(space, tiles.colour_start[colour + 1] - tiles.colour_start[colour],
-                   [=](long t) { body(some[t], long{start[some[t]]}, long{start[some[t] + 1]}, whole); });
+                   [=](long t) { run_tile(some[t], whole); });
     }
     return;
   }
@@ -84,7 +139,7 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     const int corner_y = tile / lattice.tiles_x() * Lattice::tile - tile_margin;
     alignas(64) Real mass[Mass ? tile_reach * tile_reach + 1 : 1] = {};  // one more: see add_row
     alignas(64) Real q[4 * tile_reach * tile_reach] = {};
-    body(tile, long{start[tile]}, long{start[tile + 1]}, NodeTarget<Real>{mass, q, tile_reach, corner_x, corner_y});
+    run_tile(tile, {mass, q, tile_reach, corner_x, corner_y});
     detail::flush<Mass>(lattice, corner_x, corner_y, mass, q, grid_mass, grid_q, shared);
   });
 }

@@ -11,10 +11,10 @@ namespace riven {
 
 namespace {
 
-template <bool Cracked, class Real, class Shape>
+template <bool Crossing, class Real, class Shape>
 RIVEN_INLINE void gather_gradients(const Block<Real, Shape>& w, long first, int count, const Real* q, int nx,
                                    const ExtraSlots<Real>& extra, GradientLanes<Real>& g) {
-  each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+  each_particle<Crossing>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
     g.set(k, word != 0 ? gather_fields<true>(w, k, q, word, extra) : gather<true>(w, k, q, nx));
   });
 }
@@ -40,7 +40,7 @@ struct StressLanes {
   }
 };
 
-template <class Shape, class Law, bool Cracked, bool Averaged, class Real>
+template <class Shape, class Law, bool Averaged, class Real>
 void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
   Real* q = s.grid.q.data();
@@ -49,24 +49,24 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const BodyLookup<Law> law = laws<Law>(s);
-  const WatchTiles see(s.watch);
+  const WatchTiles<Real, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), q,
-      [=](int tile, long begin, long end, const NodeTarget<Real>& to) {
+      extra, see,
+      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
         StressLanes<Real> stress;
-        TileWatch<Real> seen;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
-          gather_gradients<Cracked>(w, first, count, q, nx, extra, gradient);
+          gather_gradients<crossing.value>(w, first, count, q, nx, extra, gradient);
           if constexpr (Averaged)
             find_middle(p, first, count, gradient, step);
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
           stress.template take<Averaged>(p, first, count);
-          each_particle<Cracked>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
             const Real m = p.mass[first + k];
             const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
                 C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
@@ -76,12 +76,11 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
               scatter<false, true>(w, k, Real(0), A, B, C, to);
           });
         }
-        see.put_J(tile, seen);
       });
   watch_J(s);
 }
 
-template <class Shape, class Law, bool Cracked, bool Averaged, class Real>
+template <class Shape, class Law, bool Averaged, class Real>
 void run_move(const exec::Space& space, State<Real, 2>& s) {
   constexpr int L = exec::lanes;
   const Real* again = s.grid.again.data();
@@ -90,24 +89,23 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, false);
   const BodyLookup<Law> law = laws<Law>(s);
-  const WatchTiles see(s.watch);
+  const WatchTiles<Real, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
-  each_tile(space, "stress after, move", s.particles.tiles, [=](int tile, long begin, long end) {
-    Block<Real, Shape> w;
-    GradientLanes<Real> gradient;
-    TileWatch<Real> seen;
-    for (long first = begin; first < end; first += L) {
-      const int count = static_cast<int>(std::min<long>(L, end - first));
-      w.weigh(at, first);
-      gather_gradients<Cracked>(w, first, count, again, nx, extra, gradient);
-      update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
-      exec::for_lanes(count, [&](int k) RIVEN_LANE {
-        p.x[first + k] += p.step_x[first + k];
-        p.y[first + k] += p.step_y[first + k];
-      });
-    }
-    see.put_J(tile, seen);
-  });
+  each_tile(space, "stress after, move", s.particles.tiles, extra, see,
+            [=](auto crossing, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
+              Block<Real, Shape> w;
+              GradientLanes<Real> gradient;
+              for (long first = begin; first < end; first += L) {
+                const int count = static_cast<int>(std::min<long>(L, end - first));
+                w.weigh(at, first);
+                gather_gradients<crossing.value>(w, first, count, again, nx, extra, gradient);
+                update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+                exec::for_lanes(count, [&](int k) RIVEN_LANE {
+                  p.x[first + k] += p.step_x[first + k];
+                  p.y[first + k] += p.step_y[first + k];
+                });
+              }
+            });
   watch_J(s);
 }
 
@@ -116,12 +114,10 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
 template <class Real>
 void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(plan.cracks, [&](auto cracked) {
-      with_flag(plan.averaged(), [&](auto averaged) {
-        with_law<Real>(plan.law, [&](auto law) {
-          run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value,
-                     decltype(averaged)::value>(space, plan, s, gravity);
-        });
+    with_flag(plan.averaged(), [&](auto averaged) {
+      with_law<Real>(plan.law, [&](auto law) {
+        run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(averaged)::value>(space, plan,
+                                                                                                            s, gravity);
       });
     });
   });
@@ -130,12 +126,9 @@ void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<
 template <class Real>
 void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(plan.cracks, [&](auto cracked) {
-      with_flag(plan.averaged(), [&](auto averaged) {
-        with_law<Real>(plan.law, [&](auto law) {
-          run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(cracked)::value,
-                   decltype(averaged)::value>(space, s);
-        });
+    with_flag(plan.averaged(), [&](auto averaged) {
+      with_law<Real>(plan.law, [&](auto law) {
+        run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(averaged)::value>(space, s);
       });
     });
   });

@@ -38,7 +38,7 @@ Positions<Real> positions(const State<Real, 2>& s) {
 template <class Real>
 ExtraSlots<Real> extra_slots(const State<Real, 2>& s, bool shared) {
   const Lattice& l = s.grid.lattice;
-  return {s.fields.fields.data(), s.fields.extra.data(), l.nodes(), l.nx, shared};
+  return {s.fields.fields.data(), s.fields.tile_marked.data(), s.fields.extra.data(), l.nodes(), l.nx, shared};
 }
 
 template <class Law, class Real>
@@ -56,24 +56,14 @@ BodyLookup<Law> laws(const State<Real, 2>& s) {
   return {law_table<Law>(s.laws), s.particles.body.data(), s.domains.size() == 1};
 }
 
-/// True if some particle of the block sees a node across a crack.
-template <class Real>
-RIVEN_INLINE bool any_crossing(const ExtraSlots<Real>& e, long first, int count) {
-  std::uint32_t any = 0;
-  for (int k = 0; k < count; ++k)
-    any |= e.word[first + k];
-  return any != 0;
-}
-
-/// body(k, word) for the particles of a block; word tells which nodes a particle sees across cracks. Where none does,
-/// it is a constant 0, so that the loop over most particles is compiled without the way out to the rare others.
-template <bool Cracked, class Real, class Body>
+/// body(k, word) for the particles of a block; word tells which nodes a particle sees across cracks. In a stretch where
+/// none does it is a constant 0, so that the loop is compiled without the way out to the others.
+template <bool Crossing, class Real, class Body>
 RIVEN_INLINE void each_particle(const ExtraSlots<Real>& e, long first, int count, const Body& body) {
-  if (Cracked && any_crossing(e, first, count))
-    for (int k = 0; k < count; ++k)
+  for (int k = 0; k < count; ++k)
+    if constexpr (Crossing)
       body(k, e.word[first + k]);
-  else
-    for (int k = 0; k < count; ++k)
+    else
       body(k, std::integral_constant<std::uint32_t, 0>{});
 }
 

@@ -30,12 +30,21 @@ struct TileWatch {
   RIVEN_INLINE void det_F(int k, Real other) { J[k] = J[k] < other ? J[k] : J[k] != J[k] ? J[k] : other; }
 };
 
-/// Where tiles put what they noticed.
+/// Where tiles put what they noticed, of moves and of det F.
+template <class Real, bool Moves, bool Dets>
 struct WatchTiles {
+  using Seen = TileWatch<Real>;
   explicit WatchTiles(StepWatch& w) : move(w.tile_move.data()), J(w.tile_J.data()), finite(w.tile_finite.data()) {}
 
-  template <class Real>
-  RIVEN_INLINE void put_moves(int tile, const TileWatch<Real>& t) const {
+  RIVEN_INLINE void put(int tile, const Seen& t) const {
+    if constexpr (Moves)
+      put_moves(tile, t);
+    if constexpr (Dets)
+      put_J(tile, t);
+  }
+
+ private:
+  RIVEN_INLINE void put_moves(int tile, const Seen& t) const {
     Real most = 0, all = 0;
     for (int k = 0; k < t.lanes; ++k) {
       most = std::max(most, t.move[k]);
@@ -44,14 +53,19 @@ struct WatchTiles {
     move[tile] = most;
     finite[tile] = all;
   }
-  template <class Real>
-  RIVEN_INLINE void put_J(int tile, const TileWatch<Real>& t) const {
+  RIVEN_INLINE void put_J(int tile, const Seen& t) const {
     Real least = t.J[0];
     for (int k = 1; k < t.lanes; ++k)
       least = least < t.J[k] || least != least ? least : t.J[k];
     J[tile] = least;
   }
   double *move, *J, *finite;
+};
+
+/// Notices nothing.
+struct WatchNothing {
+  struct Seen {};
+  RIVEN_INLINE void put(int, const Seen&) const {}
 };
 
 /// Largest move and drift since the last sort; NaN if any particle's move is not finite.
