@@ -7,6 +7,7 @@
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
+#include "kernels/average_normals.hpp"
 #include "kernels/cells_around.hpp"
 #include "kernels/trace_crossings.hpp"
 
@@ -15,12 +16,6 @@ namespace riven {
 namespace {
 
 enum Verdict : std::uint8_t { other_side = 4, third_crack = 8 };  // 1 and 2 are fields
-
-Vec2 unit(const std::int64_t* fixed) {
-  const Vec2 n{static_cast<double>(fixed[0]), static_cast<double>(fixed[1])};
-  const double length = norm(n);
-  return length > 0 ? n * (1 / length) : Vec2{};
-}
 
 /// Tells the tiles whose particles may see the node that its cracks have changed.
 void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
@@ -51,6 +46,8 @@ bool hold_cracks(const Lattice& lattice, CrackFields& fields, long f) {
     std::swap(most[0], most[1]);
   NodeCracks now;
   now.node = node.node;
+  now.extra = node.extra;
+  now.sees = node.sees;
   bool changed = false;
   int held = 0;
   for (int c = first; c < last; ++c) {
@@ -78,49 +75,33 @@ bool hold_cracks(const Lattice& lattice, CrackFields& fields, long f) {
   return changed;
 }
 
-/// Mean normals of the cracks that a node holds, over their crossings from the side that it sees.
-void average_normals(CrackFields& fields, long f) {
-  NodeCracks& node = fields.nodes[f];
-  int c = fields.candidate_start[f];
-  for (int m = 0; m < fields.held[f]; ++m) {
-    while (fields.candidate[c] != node.crack[m])
-      ++c;
-    std::int64_t sum[4] = {0, 0, 0, 0};
-    for (int s = fields.segment_start[c]; s < fields.segment_start[c + 1]; ++s) {
-      const std::int64_t times = fields.share[2 * s + (node.side[m] == Side::below)];
-      if (times == 0)
-        continue;
-      const std::int64_t* normal = fields.segment_normal.data() + 4L * fields.node_segment[s];
-      for (int k = 0; k < 4; ++k)
-        sum[k] += times * normal[k];
-    }
-    node.normal[m] = unit(sum);
-    node.normal0[m] = unit(sum + 2);
-  }
-}
-
 /// f(particle, record) for the records of each particle of a tile that weigh.
 template <class F>
 void each_record(const CrackFields& fields, long first, long last, const F& f) {
   for (long p = first; p < last; ++p) {
     const CrossingMemory& m = fields.memory[p];
     for (int r = m.first; r < m.first + m.count; ++r)
-      if (fields.records[r].weighs && fields.records[r].leads)
+      if (fields.records[r].weighs)
         f(p, fields.records[r]);
   }
 }
 
-/// The fields of a tile's particles.
-void set_fields(CrackFields& fields, TileTrace& tile, long first, long last) {
+/// The fields of the particles of a marked tile.
+void set_fields(CrackFields& fields, long marked, long first, long last) {
+  TileTrace& tile = fields.tiles[marked];
+  std::uint8_t* const crossing = fields.crossing.data() + CrackFields::block_of(first, marked);
   std::fill(fields.fields.begin() + first, fields.fields.begin() + last, 0u);
+  std::fill(crossing, crossing + (last - first + exec::lanes - 1) / exec::lanes, std::uint8_t{0});
   tile.warnings[0] = tile.warnings[1] = 0;
   tile.changed = 0;
   each_record(fields, first, last, [&](long p, const CrossingRecord& r) {
     const std::uint8_t verdict = fields.verdict[r.entry];
-    if (verdict < other_side)
+    if (verdict < other_side) {
       fields.fields[p] |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * r.neighbour);
-    else
+      crossing[(p - first) / exec::lanes] = 1;
+    } else {
       ++tile.warnings[verdict == third_crack];
+    }
   });
 }
 
@@ -157,12 +138,12 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
       if (hold_cracks(lattice, fields, f))
         mark_changed(lattice, fields.nodes[f].node, fields);
     }
-    average_normals(fields, f);
+    average_normals(lattice, cracks, fields, f);
   });
   exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
     if (fields.tiles[m].changed)
-      set_fields(fields, fields.tiles[m], start[0], start[1]);
+      set_fields(fields, m, start[0], start[1]);
   });
   long* const total[2] = {&fields.warning_both_sides, &fields.warning_third_crack};
   for (int kind = 0; kind < 2; ++kind) {

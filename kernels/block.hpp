@@ -76,8 +76,9 @@ struct NodeTarget {
 /// The slots behind the plain grid, and the fields that lead to them. Without cracks `word` is null.
 template <class Real>
 struct ExtraSlots {
-  const std::uint32_t* word = nullptr;  ///< CrackFields::fields
-  const int* tile_marked = nullptr;     ///< CrackFields::tile_marked
+  const std::uint32_t* word = nullptr;          ///< CrackFields::fields
+  const int* tile_marked = nullptr;             ///< CrackFields::tile_marked
+  const std::uint8_t* block_crosses = nullptr;  ///< CrackFields::crossing
   const int* extra = nullptr;
   int nodes = 0;
   int nx = 0;
@@ -161,18 +162,20 @@ RIVEN_INLINE void each_crossing(const Block<Real, Shape>& w, int k, std::uint32_
   }
 }
 
-/// The same for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`, `grid_q`.
-template <bool Mass, class Real, class Shape>
+/// The same as `scatter` for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`,
+/// `grid_q`.
+template <bool Mass, bool Gradient, class Real, class Shape>
 RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
                                   const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
                                   std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
   constexpr int N = Shape::width;
   Real *q[N * N], *m[N * N];
   const int first = to.at(w.ix[k], w.iy[k]);
+#pragma GCC unroll 9
   for (int n = 0; n < N * N; ++n) {
-    const long at = first + static_cast<long>(n / N) * to.stride + n % N;
-    q[n] = to.q + 4 * at;
-    m[n] = to.mass + at;
+    const long slot = first + n / N * long{to.stride} + n % N;
+    q[n] = to.q + 4 * slot;
+    m[n] = to.mass + slot;
   }
   Quad<Real> apart[N * N];  // where other tiles may write to the slots, too
   Real apart_mass[N * N];
@@ -182,10 +185,18 @@ RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass,
   });
 #pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
-    const Quad<Real> row = w.sy[j][k] * A + w.gy[j][k] * C, across = w.sy[j][k] * B;
+    Quad<Real> row = w.sy[j][k] * A;
+    Quad<Real> across{};
+    if constexpr (Gradient) {
+      row += w.gy[j][k] * C;
+      across = w.sy[j][k] * B;
+    }
 #pragma GCC unroll 3
     for (int i = 0; i < N; ++i) {
-      quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row + w.gx[i][k] * across;
+      if constexpr (Gradient)
+        quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row + w.gx[i][k] * across;
+      else
+        quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row;
       if constexpr (Mass)
         *m[j * N + i] += mass * w.sx[i][k] * w.sy[j][k];
     }
@@ -235,12 +246,19 @@ template <bool Gradient, class Real, class Shape>
 RIVEN_OUTLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, const Real* q, std::uint32_t word,
                                            const ExtraSlots<Real>& extra) {
   constexpr int N = Shape::width;
+  const Real* from[N * N];
+  const Real* first = q + 4L * (static_cast<long>(w.iy[k]) * extra.nx + w.ix[k]);
+#pragma GCC unroll 9
+  for (int n = 0; n < N * N; ++n)
+    from[n] = first + 4L * (n / N * long{extra.nx} + n % N);
+  each_crossing(w, k, word, extra, [&](int n, int slot) { from[n] = q + 4L * slot; });
   Gathered<Real> out{};
+#pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
     Quad<Real> s{}, d{};
+#pragma GCC unroll 3
     for (int i = 0; i < N; ++i) {
-      const int node = (w.iy[k] + j) * extra.nx + w.ix[k] + i, f = field_of(word, j * N + i);
-      const Quad<Real>& n = quad_at<Real>(q + 4L * (f == 0 ? node : extra.slot(node, f)));
+      const Quad<Real>& n = quad_at<Real>(from[j * N + i]);
       s += w.sx[i][k] * n;
       if constexpr (Gradient)
         d += w.gx[i][k] * n;

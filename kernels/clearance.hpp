@@ -1,10 +1,9 @@
 // How far may a particle and the cracks move before its crossings can change?
 //
-// Whether a path crosses a crack, and which segment, changes only when the particle or the node passes through the
-// crack, or a point of the crack through the path: a tip in any case, a joint if the path crosses this crack (then
-// another segment is crossed, or more than one). A joint that comes to touch another path makes two crossings, which
-// count as none. So as long as the particle's move plus the crack's stays below the least of these distances, nothing
-// changes, and a pair need not be tested again.
+// Whether a path crosses a crack, and from where, changes only when the particle or the node passes through the crack,
+// or one of its tips through the path. A joint that passes through the path makes two crossings that cancel, or takes
+// the one crossing from a segment to the next. So as long as the particle's move plus the crack's stays below the least
+// of these distances, nothing changes, and a pair need not be tested again.
 #pragma once
 #include <algorithm>
 #include <cmath>

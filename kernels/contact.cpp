@@ -67,9 +67,9 @@ struct Motion {
 struct Detection {
   ContactDetection by;
   double v_sep, v_contact;
-  const ContactField* field;  ///< null where not summed
+  const double* place;   ///< ContactSums::place, null where not summed
+  const double* volume;  ///< ContactSums::volume, null where not summed
   const ContactArea* area;
-  bool volumes;
   double reach;  ///< m, gap beyond which nothing touches (displacement)
 };
 
@@ -81,8 +81,8 @@ struct Verdict {
   double gap;        ///< m
 };
 
-/// What detection says of a meeting; `field` are the node's four sums.
-RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, double dt, const Meeting& m,
+/// What detection says of a meeting of fields in these slots, with these masses.
+RIVEN_INLINE Verdict judge(const Detection& found, const long* slot, const double* mass, double dt, const Meeting& m,
                            double relative_volume) {
   if (m.law.law == ContactLaw::ignored)
     return {Touch::none, {}, 0};
@@ -99,7 +99,7 @@ RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, do
   if (by_volume && relative_volume < found.v_sep)
     return {Touch::apart, {}, 0};
   const bool held = by_volume && relative_volume > found.v_contact;
-  const double g = found.by == ContactDetection::displacement ? gap_of(m, field) : 0;
+  const double g = found.by == ContactDetection::displacement ? gap_of(m, found.place, slot, mass) : 0;
   if (g > found.reach)
     return {Touch::apart, {}, g};
   if (m.law.law == ContactLaw::stick)
@@ -111,9 +111,8 @@ RIVEN_INLINE Verdict judge(const Detection& found, const ContactField* field, do
 /// search for a common solution.
 template <class Real, ContactStage stage>
 RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection& found, double dt, const NodeCracks& n,
-                              long index, const Lattice& lattice, const int* extra, const ContactSettings* laws,
-                              ContactReport& report) {
-  const long slot[2] = {n.node, long{lattice.nodes()} + extra[n.node]};
+                              const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
+  const long slot[2] = {n.node, long{lattice.nodes()} + n.extra};
   const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return;
@@ -129,9 +128,9 @@ RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection
     ++report.apart;  // faces that part do not touch, whatever their gap
     return;
   }
-  const ContactField* field = found.field ? found.field + ContactNode::fields * index : nullptr;
-  const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
-  const Verdict v = judge(found, field, dt, m, volume);
+  const double volume =
+      found.volume ? relative_volume(lattice, n.node, found.volume[slot[0]] + found.volume[slot[1]]) : 1;
+  const Verdict v = judge(found, slot, mass, dt, m, volume);
   const double tiny = ContactNode::tolerance * (norm(momentum[0]) + norm(momentum[1]));
   Vec2 velocity[2], impulse[2];
   bool touches = false;
@@ -170,7 +169,6 @@ struct NodeContact {
   const Motion<Real, stage>& motion;
   const Detection& found;
   const double dt;
-  const ContactField* field = nullptr;
   const ContactArea* area = nullptr;
   ContactNode node{};
   long slot[ContactNode::fields] = {};
@@ -179,9 +177,9 @@ struct NodeContact {
   double stick_gap[ContactNode::most_pairs] = {};
   ContactReport report{};
 
-  RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice, const int* extra) {
+  RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice) {
     for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
-      slot[f] = f == 0 ? n.node : long{lattice.nodes()} + extra[n.node] + f - 1;
+      slot[f] = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
       node.mass[f] = motion.mass[slot[f]];
       if (node.mass[f] > 0)
         node.momentum[f] = motion.momentum_of(slot[f]);
@@ -233,10 +231,10 @@ struct NodeContact {
   RIVEN_INLINE void detect(const Meetings& meetings, double relative_volume) {
     for (const Meeting& m : meetings)
       if (m.law.law == ContactLaw::bonded)
-        list(m, judge(found, field, dt, m, relative_volume));
+        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
     for (const Meeting& m : meetings)
       if (!node.together(m.above, m.below))
-        list(m, judge(found, field, dt, m, relative_volume));
+        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
   }
 
   /// Velocity of a group of fields before the step's forces.
@@ -296,17 +294,20 @@ struct NodeContact {
     report.early = touched && relative_volume < found.v_sep;
   }
 
-  RIVEN_INLINE void run(const NodeCracks& n, long index, const Lattice& lattice, const int* extra,
-                        const ContactSettings* laws) {
-    load(n, lattice, extra);
+  RIVEN_INLINE void run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
+    load(n, lattice);
     const Meetings meetings = find_meetings(n, node.mass, laws);
     if (meetings.count == 0)
       return;
-    if (found.field)
-      field = found.field + ContactNode::fields * index;
     if (found.area)
       area = found.area + 2 * index;
-    const double volume = found.volumes ? relative_volume(lattice, n.node, field) : 1;
+    double volume = 1;
+    if (found.volume) {
+      volume = 0;
+      for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
+        volume += found.volume[slot[f]];
+      volume = relative_volume(lattice, n.node, volume);
+    }
     detect(meetings, volume);
     for (int k = 0; k < node.pairs; ++k)
       if (pair[k].law.law == ContactLaw::interface)
@@ -328,7 +329,6 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   const Motion<Real, stage> motion(grid);
   const NodeCracks* nodes = fields.nodes.data();
   const std::uint8_t* held = fields.held.data();
-  const int* extra = fields.extra.data();
   const ContactSettings* laws = cracks.contact.data();
   const Lattice lattice = grid.lattice;
   report += exec::parallel_sum<ContactReport>(space, label, fields.nodes.size(), [=](long i, ContactReport& sum) {
@@ -336,11 +336,11 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
       return;
     const NodeCracks& n = nodes[i];
     if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
-      one_contact(motion, found, dt, n, i, lattice, extra, laws, sum);
+      one_contact(motion, found, dt, n, lattice, laws, sum);
       return;
     }
     NodeContact<Real, stage> here{motion, found, dt};
-    here.run(n, i, lattice, extra, laws);
+    here.run(n, i, lattice, laws);
     sum += here.report;
   });
 }
@@ -356,15 +356,18 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
     return c.law == ContactLaw::stick || c.law == ContactLaw::frictionless || c.law == ContactLaw::coulomb;
   });
   const bool by_volume = parting && rules.detection == ContactDetection::volume;
-  const bool by_field = by_volume || (parting && rules.detection == ContactDetection::displacement);
-  const bool summed = sums.field.size() == ContactNode::fields * fields.nodes.size();
-  if ((by_field && !summed) || (by_volume && !sums.volumes) ||
+  const bool by_position = parting && rules.detection == ContactDetection::displacement;
+  const bool positions = sums.place.size() == 4L * grid.slots(), volumes = sums.volume.size() == grid.slots();
+  if ((by_position && !positions) || (by_volume && !volumes) ||
       (interfaces && sums.area.size() != 2 * fields.nodes.size()))
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
-  const Detection found{rules.detection,     rules.v_sep,
-                        rules.v_contact,     summed ? sums.field.data() : nullptr,
-                        sums.area.data(),    sums.volumes && summed,
-                        0.2 * grid.lattice.h};
+  const Detection found{.by = rules.detection,
+                        .v_sep = rules.v_sep,
+                        .v_contact = rules.v_contact,
+                        .place = positions ? sums.place.data() : nullptr,
+                        .volume = volumes ? sums.volume.data() : nullptr,
+                        .area = sums.area.data(),
+                        .reach = 0.2 * grid.lattice.h};
   switch (stage) {
     case ContactStage::before:
       return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);

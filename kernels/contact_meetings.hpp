@@ -81,26 +81,23 @@ RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[Co
   return m;
 }
 
-/// Opening of two faces along the normal, m; `field` are the node's four sums.
-RIVEN_INLINE double gap_of(const Meeting& m, const ContactField* field) {
-  const ContactField &a = field[m.above], &b = field[m.below];
-  if (!(a.mass > 0) || !(b.mass > 0))
-    return 0;
-  return dot(m.normal, b.mean_position() - a.mean_position()) -
-         dot(m.normal0, b.mean_first_position() - a.mean_first_position());
+/// Opening of two faces along the normal, m. `place`: ContactSums::place; slots and masses of the node's fields.
+RIVEN_INLINE double gap_of(const Meeting& m, const double* place, const long* slot, const double* mass) {
+  const double *a = place + 4 * slot[m.above], *b = place + 4 * slot[m.below];
+  const double of_a = 1 / mass[m.above], of_b = 1 / mass[m.below];
+  return dot(m.normal, of_b * Vec2{b[0], b[1]} - of_a * Vec2{a[0], a[1]}) -
+         dot(m.normal0, of_b * Vec2{b[2], b[3]} - of_a * Vec2{a[2], a[3]});
 }
 
 /// Area in the plane of a node's particles over the area that its cells have inside the walls.
-RIVEN_INLINE double relative_volume(const Lattice& l, int node, const ContactField* field) {
+RIVEN_INLINE double relative_volume(const Lattice& l, int node, double area) {
   const int i = node % l.nx, j = node / l.nx;
-  double cells = l.h * l.h, sum = 0;
+  double cells = l.h * l.h;
   if (i == l.wall_lower[0] || i == l.wall_upper[0])
     cells /= 2;
   if (j == l.wall_lower[1] || j == l.wall_upper[1])
     cells /= 2;
-  for (int f = 0; f < ContactNode::fields; ++f)
-    sum += field[f].area;
-  return sum / cells;
+  return area / cells;
 }
 
 }  // namespace riven

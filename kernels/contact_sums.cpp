@@ -4,9 +4,9 @@
 
 #include "core/error.hpp"
 #include "core/math/shape.hpp"
-#include "kernels/block.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/interface_segments.hpp"
+#include "kernels/views.hpp"
 
 namespace riven {
 
@@ -20,51 +20,60 @@ RIVEN_INLINE double area_ratio(const Real* const F[4], const Real* J, long i) {
   return double(F[0][i]) * F[3][i] - double(F[1][i]) * F[2][i];
 }
 
-/// Where nodes hold cracks; see CrackFields.
-struct CrackNodes {
-  const int* index;
-  const std::uint8_t *held, *cell_held;
+/// What the particles add up to, in slots; null where not asked for.
+struct SlotSums {
+  double *place, *volume;
 };
 
-/// The nodes that hold cracks among the neighbours of the particles in one cell, which are remembered from particle to
-/// particle: particles are sorted by cell.
-template <class Shape>
-struct HeldNeighbours {
-  int cell = -1;
-  int count = 0;
-  int neighbour[neighbours<Shape, 2>];
-  int index[neighbours<Shape, 2>];
-  Vec2 place[neighbours<Shape, 2>];
+/// A particle's mass and area, and its places [x y X Y] from the first of its nodes.
+struct ParticleParts {
+  double mass, area;
+  Quad<double> places;
+};
 
-  RIVEN_INLINE void find(int of, const Lattice& lattice, const CrackNodes& at) {
-    if (of == cell)
-      return;
-    constexpr int before = Shape::width == 3;  // nodes on the lower side of a cell's own
-    cell = of;
-    count = 0;
-    if (at.cell_held[cell] == 0)
-      return;
-    const int x = cell % lattice.nx - before, y = cell / lattice.nx - before;
-    for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-      const int ix = x + k % Shape::width, iy = y + k / Shape::width, i = at.index[iy * lattice.nx + ix];
-      if (i < 0 || at.held[i] == 0)
-        continue;
-      neighbour[count] = k;
-      place[count] = lattice.position(ix, iy);
-      index[count++] = i;
+/// Adds m S (x - x_i) and A S of particle k of a block; slot_of(n) of node n.
+template <class Real, class Shape, class SlotOf>
+RIVEN_INLINE void add_parts(const Block<Real, Shape>& w, int k, const ParticleParts& p, double h, const SlotSums& to,
+                            const SlotOf& slot_of) {
+  constexpr int N = Shape::width;
+  if (to.place)
+    for (int j = 0; j < N; ++j) {
+      const Quad<double> row = p.places + Quad<double>{0, -j * h, 0, -j * h};
+      const double m = p.mass * double(w.sy[j][k]);
+#pragma GCC unroll 3
+      for (int i = 0; i < N; ++i)
+        quad_at<double>(to.place + 4 * slot_of(j * N + i)) +=
+            (m * double(w.sx[i][k])) * (row + Quad<double>{-i * h, 0, -i * h, 0});
     }
-  }
-};
+  if (to.volume)
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i)
+        to.volume[slot_of(j * N + i)] += p.area * double(w.sx[i][k]) * double(w.sy[j][k]);
+}
+
+template <class Real, class Shape>
+RIVEN_INLINE void add_particle(const Block<Real, Shape>& w, int k, const ParticleParts& p, const Lattice& lattice,
+                               std::uint32_t word, const ExtraSlots<Real>& extra, const SlotSums& to) {
+  constexpr int N = Shape::width;
+  const long first = long{w.iy[k]} * lattice.nx + w.ix[k];
+  const auto plain = [&](int n) { return first + long{n / N} * lattice.nx + n % N; };
+  if (word == 0)
+    return add_parts(w, k, p, lattice.h, to, plain);
+  long slot[N * N];
+  for (int n = 0; n < N * N; ++n)
+    slot[n] = plain(n);
+  each_crossing(w, k, word, extra, [&](int n, int across) { slot[n] = across; });
+  add_parts(w, k, p, lattice.h, to, [&](int n) { return slot[n]; });
+}
 
 template <class Shape, class Real>
-void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, const Particles<Real, 2>& particles,
+void sum_particles(const exec::Space& space, const Particles<Real, 2>& particles,
                    const exec::Array<DomainSetting<Real, 2>>& domains, const exec::Array<double>& specific_area,
-                   const Lattice& lattice, const CrackFields& fields, ContactField* out) {
-  constexpr int L = exec::lanes, N = Shape::width;
+                   const Lattice& lattice, const CrackFields& fields, const SlotSums& to) {
+  constexpr int L = exec::lanes;
   const exec::Stopwatch watch(space.timers(), "contact sums");
   const Tiles& tiles = particles.tiles;
   const Real* const F[4] = {particles.F[0].data(), particles.F[1].data(), particles.F[2].data(), particles.F[3].data()};
-  const bool area = choice.volume, position = choice.position;
   const Real *x = particles.x[0].data(), *y = particles.x[1].data(), *mass = particles.mass.data();
   const Real *X = particles.x0[0].data(), *Y = particles.x0[1].data();
   const Real* J = particles.J.empty() ? nullptr : particles.J.data();
@@ -74,14 +83,12 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
                            Real(lattice.origin.y),
                            Real(1 / lattice.h),
                            {domains.data(), particles.body.data(), domains.size() == 1}};
-  const std::uint8_t* body = particles.body.data();
-  const CrackNodes nodes{fields.node_index.data(), fields.held.data(), fields.cell_held.data()};
+  const std::uint8_t *body = particles.body.data(), *cell_held = fields.cell_held.data();
   const double* specific = specific_area.data();
-  const std::uint32_t* word = fields.fields.data();
+  const ExtraSlots<Real> extra = extra_slots<Real>(fields, lattice, false);
   const int *start = tiles.start.data(), *marked = fields.tile_marked.data();
 
   const auto tile_body = [=](int tile) {
-    HeldNeighbours<Shape> near;
     Block<Real, Shape> w;
     alignas(64) int cell[L];
     for (int first = start[tile]; first < start[tile + 1]; first += L) {
@@ -90,28 +97,19 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
         const int j = Shape::cell((y[first + k] - at.origin_y) * at.inv_h);
         cell[k] = j * lattice.nx + i;
       });
-      bool weighed = false;
-      for (int k = 0; k < std::min(L, start[tile + 1] - first); ++k) {
-        near.find(cell[k], lattice, nodes);
-        if (near.count == 0)
-          continue;
-        if (!weighed)
-          w.weigh(at, first);
-        weighed = true;
-        const int p = first + k;
-        const double m = mass[p], A = area ? m * specific[body[p]] * area_ratio(F, J, p) : 0;
+      unsigned near = 0;
+      for (int k = 0; k < std::min(L, start[tile + 1] - first); ++k)
+        near |= unsigned{cell_held[cell[k]] != 0} << k;
+      if (near == 0)
+        continue;
+      w.weigh(at, first);
+      for (; near != 0; near &= near - 1) {
+        const int k = lowest_bit(near), p = first + k;
+        const double area = to.volume ? mass[p] * specific[body[p]] * area_ratio(F, J, p) : 0;
+        const Vec2 node = lattice.position(w.ix[k], w.iy[k]);
         const Quad<double> places =
-            position ? Quad<double>{double(x[p]), double(y[p]), double(X[p]), double(Y[p])} : Quad<double>{};
-        for (int c = 0; c < near.count; ++c) {
-          const int n = near.neighbour[c];
-          const double S = double(w.sx[n % N][k]) * double(w.sy[n / N][k]), mS = m * S;
-          ContactField& f = out[4L * near.index[c] + field_of(word[p], n)];
-          f.mass += mS;
-          f.area += A * S;
-          const Vec2 node = near.place[c];
-          if (position)
-            quad_at<double>(&f.x.x) += mS * (places - Quad<double>{node.x, node.y, node.x, node.y});
-        }
+            to.place ? Quad<double>{x[p] - node.x, y[p] - node.y, X[p] - node.x, Y[p] - node.y} : Quad<double>{};
+        add_particle(w, k, {mass[p], area, places}, lattice, extra.word[p], extra, to);
       }
     }
   };
@@ -124,12 +122,22 @@ void sum_particles(const exec::Space& space, const ContactSumsChoice& choice, co
   }
 }
 
-/// Clears the sums of the nodes that hold cracks.
-void clear_sums(const exec::Space& space, const CrackFields& fields, ContactField* out) {
-  exec::parallel_for(space, "contact sums", fields.nodes.size(), [=, held = fields.held.data()](long i) {
-    if (held[i])
-      std::fill(out + 4 * i, out + 4 * (i + 1), ContactField{});
-  });
+/// Clears the slots of the nodes that hold cracks.
+void clear_sums(const exec::Space& space, const Lattice& lattice, const CrackFields& fields, const SlotSums& sums) {
+  exec::parallel_for(space, "contact sums", fields.nodes.size(),
+                     [=, held = fields.held.data(), nodes = fields.nodes.data()](long i) {
+                       const auto clear = [&](long slot) {
+                         if (sums.place)
+                           quad_at<double>(sums.place + 4 * slot) = Quad<double>{};
+                         if (sums.volume)
+                           sums.volume[slot] = 0;
+                       };
+                       if (held[i] == 0)
+                         return;
+                       clear(nodes[i].node);
+                       for (int f = 1; f <= (held[i] == 1 ? 1 : 3); ++f)
+                         clear(long{lattice.nodes()} + nodes[i].extra + f - 1);
+                     });
 }
 
 template <class Shape, class Real>
@@ -164,16 +172,17 @@ void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSu
   if ((choice.volume && particles.J.empty() && particles.F[0].empty()) ||
       (choice.position && particles.x0[0].empty()) || (choice.volume && specific_area.size() != domains.size()))
     fail({Exit::internal, "particles lack the arrays that the detection of contact needs", "contact sums", {}, {}, {}});
-  sums.volumes = choice.volume;
-  sums.field.resize(choice.volume || choice.position ? 4 * fields.nodes.size() : 0);
+  const long slots = long{grid.lattice.nodes()} + fields.extra_slots;
+  sums.place.resize(choice.position ? 4 * slots : 0);
+  sums.volume.resize(choice.volume ? slots : 0);
   sums.area.resize(choice.area ? 2 * fields.nodes.size() : 0);
-  if (!sums.field.empty())
-    clear_sums(space, fields, sums.field.data());
   sums.area.zero();
+  const SlotSums to{choice.position ? sums.place.data() : nullptr, choice.volume ? sums.volume.data() : nullptr};
+  clear_sums(space, grid.lattice, fields, to);
   with_shape(shape, [&](auto type) {
     using Shape = typename decltype(type)::type;
-    if (!sums.field.empty())
-      sum_particles<Shape>(space, choice, particles, domains, specific_area, grid.lattice, fields, sums.field.data());
+    if (to.place || to.volume)
+      sum_particles<Shape>(space, particles, domains, specific_area, grid.lattice, fields, to);
     if (sums.area.empty())
       return;
     sum_segments<Shape>(space, domains, grid, fields, cracks, thickness, sums.area.data());

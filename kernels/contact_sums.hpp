@@ -1,5 +1,5 @@
-// What the detection of contact needs to know at each flagged node, besides mass and momentum: per field the area in
-// the plane (the nodal volume of two dimensions) and the mean positions of its particles,
+// What the detection of contact needs to know at each node that holds cracks, besides mass and momentum: per field the
+// area in the plane (the nodal volume of two dimensions) and the mean positions of its particles,
 //   A_i,j = sum_p A_p S_ip,    m_i,j x_i,j = sum_p m_p S_ip x_p,    m_i,j X_i,j = sum_p m_p S_ip X_p   (X first
 //   position)
 // (A: J.A. Nairn, CMES 4 (2003), eqs. 8, 9 and 27; positions: J.A. Nairn, CMES 92 (2013) 271-299, who extrapolates
@@ -22,27 +22,19 @@
 
 namespace riven {
 
-/// Sums over the particles of one field at one node.
-struct alignas(64) ContactField {
-  Vec2 x, X;        ///< kg m, current and first positions from the node, times mass
-  double mass = 0;  ///< kg
-  double area = 0;  ///< m^2, in the plane
-
-  RIVEN_INLINE Vec2 mean_position() const { return x * (1 / mass); }
-  RIVEN_INLINE Vec2 mean_first_position() const { return X * (1 / mass); }
-};
-
 /// The part of a crack that belongs to a node.
 struct ContactArea {
   double area = 0;  ///< m^2
   Vec2 opening;     ///< m, displacement of the lower face minus that of the upper one
 };
 
+/// Sums over particles stand in the slots of the grid, and mean something where the node holds cracks.
 struct ContactSums {
-  exec::Array<ContactField> field;  ///< [4 flagged] entry 4 i + f: field f of CrackFields::nodes[i], if that holds
-                                    ///< cracks; empty: not asked for
-  exec::Array<ContactArea> area;    ///< [2 flagged] entry 2 i + k: crack k of that node; empty: no interface law
-  bool volumes = false;             ///< ContactField::area was summed
+  exec::Array<double> place;      ///< [4 slots] kg m, current and first positions from the node, times mass: [x y X Y];
+                                  ///< empty: not asked for
+  exec::Array<double> volume;     ///< [slots] m^2 in the plane; empty: not asked for
+  exec::Array<ContactArea> area;  ///< [2 flagged] entry 2 i + k: crack k of CrackFields::nodes[i]; empty: no interface
+                                  ///< law
 };
 
 /// What to sum.
@@ -55,7 +47,7 @@ struct ContactSumsChoice {
 /// Adds up particles and crack segments at the flagged nodes.
 /// `domains` [bodies] sizes of particles, `specific_area` [bodies] first area of a body's particles in m^2 per kg
 /// (1 / (density thickness)), `thickness` of the plane, m. Needs F or J of the particles for volumes, x0 for positions,
-/// the grid's masses for areas.
+/// the grid's masses for interfaces.
 template <class Real>
 void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSumsChoice& choice,
                   const Particles<Real, 2>& particles, const exec::Array<DomainSetting<Real, 2>>& domains,

@@ -51,16 +51,8 @@ struct Paths {
     }
   }
 
-  /// A lane for each of the nodes whose bits are given.
-  static Masks lanes_of(unsigned bits, int group) {
-    Masks m{};
-    for (int k = 0; k < float_lanes; ++k)
-      m[k] = bits >> std::min(group * float_lanes + k, nodes - 1) & 1u ? -1 : 0;
-    return m;
-  }
-
-  /// Takes the squared distances (in cells) of a point from the paths of the given lanes into `least`.
-  void take_distance2(Vec2 point, double inv_h, const Masks* which, Floats* least) const {
+  /// Takes the squared distances (in cells) of a point from the paths into `least`.
+  void take_distance2(Vec2 point, double inv_h, Floats* least) const {
     const float x = static_cast<float>((point.x - particle.x) * inv_h);
     const float y = static_cast<float>((point.y - particle.y) * inv_h);
     const Floats zero{}, one = zero + 1.f;
@@ -68,7 +60,7 @@ struct Paths {
       Floats t = (x * dx[g] + y * dy[g]) * inv_length2[g];
       t = t < zero ? zero : t > one ? one : t;
       const Floats off_x = x - t * dx[g], off_y = y - t * dy[g], d2 = off_x * off_x + off_y * off_y;
-      least[g] = (d2 < least[g]) & which[g] ? d2 : least[g];
+      least[g] = d2 < least[g] ? d2 : least[g];
     }
   }
 

@@ -66,15 +66,11 @@ class CrossingRecords {
   void count(const CrossingRecord& r, int times) {
     if (!r.weighs)
       return;
-    into(fields_.tally[r.entry], times * r.leads);
-    into(fields_.share[r.share], times * r.sign);
-    std::atomic_ref<std::uint8_t>(fields_.recount[r.node]).store(1, std::memory_order_relaxed);
-  }
-  void into(int& sum, int value) const {
     if (shared_)
-      exec::atomic_add(sum, value);
+      exec::atomic_add(fields_.tally[r.entry], times);
     else
-      sum += value;
+      fields_.tally[r.entry] += times;
+    std::atomic_ref<std::uint8_t>(fields_.recount[r.node]).store(1, std::memory_order_relaxed);
   }
 
   CrackFields& fields_;

@@ -129,30 +129,31 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, true, false> see(s.watch);
-  scatter_tiles<false>(
-      space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
-      static_cast<Real*>(nullptr), again, extra, see,
-      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
-        Block<Real, Shape> w;
-        MotionLanes<Real> motion;
-        GradientLanes<Real> none;
-        for (long first = begin; first < end; first += L) {
-          const int count = static_cast<int>(std::min<long>(L, end - first));
-          w.weigh(at, first);
-          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-            gather_motion<false, High>(w, k, q, high, nx, word, extra, false, motion, none);
-          });
-          update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
-          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-            const long i = first + k;
-            const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
-            if (word != 0)
-              scatter_fields<false>(w, k, Real(0), A, zero, zero, to, word, extra, static_cast<Real*>(nullptr), again);
-            else
-              scatter<false, false>(w, k, Real(0), A, zero, zero, to);
-          });
-        }
-      });
+  scatter_tiles<false>(space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
+                       static_cast<Real*>(nullptr), again, extra, see,
+                       [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen)
+                           RIVEN_LANE {
+                             Block<Real, Shape> w;
+                             MotionLanes<Real> motion;
+                             GradientLanes<Real> none;
+                             for (long first = begin; first < end; first += L) {
+                               const int count = static_cast<int>(std::min<long>(L, end - first));
+                               w.weigh(at, first);
+                               each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                                 gather_motion<false, High>(w, k, q, high, nx, word, extra, false, motion, none);
+                               });
+                               update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
+                               each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                                 const long i = first + k;
+                                 const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
+                                 if (word != 0)
+                                   scatter_fields<false, false>(w, k, Real(0), A, zero, zero, to, word, extra,
+                                                                static_cast<Real*>(nullptr), again);
+                                 else
+                                   scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+                               });
+                             }
+                           });
   watch_moves(s);
 }
 

@@ -143,8 +143,10 @@ void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::A
       fields.segment_start[total] = s;
       fields.candidate[total++] = c;
     }
-    fields.nodes[f] = NodeCracks{};
-    fields.nodes[f].node = node[f];
+    NodeCracks& here = fields.nodes[f] = NodeCracks{};
+    here.node = node[f];
+    here.extra = slots;
+    here.sees = total - first == 1 ? fields.candidate[first] : -1;
     fields.candidate_start[f] = first;
     fields.extra[node[f]] = slots;
     slots += total - first == 1 ? 1 : 3;
@@ -183,7 +185,6 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   list_candidates(lattice, cracks, flagged, start, fields);
 
   fields.tally.resize(2 * fields.candidate.size());
-  fields.share.resize(2 * fields.node_segment.size());
   fields.verdict.resize(fields.tally.size());
   fields.held.resize(fields.nodes.size());
   fields.held.zero();

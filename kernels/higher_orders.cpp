@@ -23,24 +23,25 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const Real* mass = s.particles.mass.data();
   const Positions<Real> at = positions(s);
   const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
-  scatter_tiles<false>(
-      space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), next, extra,
-      WatchNothing{}, [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
-        Block<Real, Shape> w;
-        for (long first = begin; first < end; first += L) {
-          const int count = static_cast<int>(std::min<long>(L, end - first));
-          w.weigh(at, first);
-          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-            const Quad<Real> v =
-                word != 0 ? gather_fields<false>(w, k, term, word, extra).value : gather<false>(w, k, term, nx).value;
-            const Quad<Real> mv = mass[first + k] * v, zero{};
-            if (word != 0)
-              scatter_fields<false>(w, k, Real(0), mv, zero, zero, to, word, extra, static_cast<Real*>(nullptr), next);
-            else
-              scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
-          });
-        }
-      });
+  scatter_tiles<false>(space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice,
+                       static_cast<Real*>(nullptr), next, extra, WatchNothing{},
+                       [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                         Block<Real, Shape> w;
+                         for (long first = begin; first < end; first += L) {
+                           const int count = static_cast<int>(std::min<long>(L, end - first));
+                           w.weigh(at, first);
+                           each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                             const Quad<Real> v = word != 0 ? gather_fields<false>(w, k, term, word, extra).value
+                                                            : gather<false>(w, k, term, nx).value;
+                             const Quad<Real> mv = mass[first + k] * v, zero{};
+                             if (word != 0)
+                               scatter_fields<false, false>(w, k, Real(0), mv, zero, zero, to, word, extra,
+                                                            static_cast<Real*>(nullptr), next);
+                             else
+                               scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
+                           });
+                         }
+                       });
 }
 
 }  // namespace

@@ -14,9 +14,13 @@ namespace riven {
 
 namespace {
 
+/// Points that one task takes.
+constexpr long points_of_task = 32;
+
 /// What the grid says of a crack point; mass 0 where that is nothing.
 struct Found {
-  PointMotion up, low, all;  ///< of the surfaces, and of all fields (motion with the centre of mass)
+  PointMotion surface[2],
+      all;  ///< of the upper and the lower surface, and of all fields (motion with the centre of mass)
 };
 
 /// How far a crack point moves in this step.
@@ -29,91 +33,104 @@ struct Moves {
 template <class Shape, class Real>
 struct Extrapolation {
   using Ordinary = std::conditional_t<std::is_same_v<Shape, BSpline>, BSpline, Linear>;
-  static constexpr int width = 3;
+  static constexpr int width = AxisWeights::width;
 
   const Grid<Real>& grid;
   const CrackFields& fields;
   SurfaceView view;
   double inv_h, dt;
 
-  /// What one point sees of the nodes around it, with so many fields on each.
-  template <int fields_each>
-  struct Seen {
-    Vec2 x;
-    int count = 0;
-    NodeMotion node[fields_each * width * width];
+  /// The nodes around a point.
+  struct Around {
+    AxisWeights x, y;
+    bool same_nodes(const Around& o) const { return x.base == o.x.base && y.base == o.y.base; }
   };
-  Vec2 in_cells(Vec2 x) const { return (x - grid.lattice.origin) * inv_h; }
 
-  /// Along one axis: the first of the three nodes around the nearest one, and their weights.
-  struct Weights {
-    int base;
-    double near[width], wide[width];
-  };
-  static Weights along(double X, int wall_lower, int wall_upper) {
-    const int base = static_cast<int>(std::floor(X + 0.5)) - 1;
-    const double r = X - (base + 1);
-    Weights w{base, {}, {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)}};
-    const auto ordinary = Ordinary::axis(X, AxisSetting<double>{0, 0, wall_lower, wall_upper});
+  AxisWeights along(double X, int axis) const {
+    const Lattice& l = grid.lattice;
+    const double nearest = std::floor(X + 0.5), r = X - nearest;
+    const double below = 0.5 - r, above = 0.5 + r;
+    AxisWeights w{static_cast<int>(nearest) - 1,
+                  {l.h * (-1 - r), l.h * -r, l.h * (1 - r)},
+                  {},
+                  {0.5 * below * below, 0.75 - r * r, 0.5 * above * above}};
+    const auto ordinary = Ordinary::axis(X, AxisSetting<double>{0, 0, l.wall_lower[axis], l.wall_upper[axis]});
     for (int i = 0; i < Ordinary::width; ++i)
-      w.near[ordinary.base + i - base] = ordinary.s[i];
+      w.near[ordinary.base + i - w.base] = ordinary.s[i];
     return w;
   }
-
-  /// add(node, its place, N_i, B_i) for the nodes around a point.
-  template <class Add>
-  void each_node(Vec2 x, const Add& add) const {
-    const Lattice& l = grid.lattice;
-    const Vec2 X = in_cells(x);
-    const Weights along_x = along(X.x, l.wall_lower[0], l.wall_upper[0]);
-    const Weights along_y = along(X.y, l.wall_lower[1], l.wall_upper[1]);
-    for (int j = 0; j < width; ++j)
-      for (int i = 0; i < width; ++i) {
-        const int nx = along_x.base + i, ny = along_y.base + j;
-        if (nx >= 0 && ny >= 0 && nx < l.nx && ny < l.ny)
-          add(ny * l.nx + nx, l.position(nx, ny), along_x.near[i] * along_y.near[j], along_x.wide[i] * along_y.wide[j]);
-      }
+  Around around(Vec2 x) const {
+    const Vec2 X = (x - grid.lattice.origin) * inv_h;
+    return {along(X.x, 0), along(X.y, 1)};
+  }
+  bool on_grid(const Around& a) const {
+    return a.x.base >= 0 && a.y.base >= 0 && a.x.base + width <= grid.lattice.nx && a.y.base + width <= grid.lattice.ny;
   }
 
-  template <int fields_each>
-  void add(Seen<fields_each>& seen, int node, Vec2 place, int field, double near, double wide) const {
+  RIVEN_INLINE void add(RowSums& row, const AxisWeights& x, int i, int node, int field) const {
     const long slot = field == 0 ? node : long{grid.lattice.nodes()} + fields.extra[node] + field - 1;
     const double mass = grid.mass[slot];
-    if (!(mass > 0))
-      return;
     const Real* q = grid.q.data() + 4 * slot;
-    const Vec2 v{double(q[0]), double(q[1])}, a{double(q[2]), double(q[3])};
-    seen.node[seen.count++] = {mass * near, mass * wide, place - seen.x, v - dt * a, a};
+    if (mass > 0)
+      row.add(mass, Quad<double>{double(q[0]), double(q[1]), double(q[2]), double(q[3])}, x, i);
   }
 
-  PointMotion of_surface(const CrackPoint& point, Side side, Vec2 x) const {
+  /// Adds what the surfaces s[first] to s[last - 1] of a point see.
+  RIVEN_INLINE void add_surfaces(const SurfacePoint* s, const Around* a, int first, int last, MotionSums* sums) const {
     const Lattice& l = grid.lattice;
-    const Vec2 X = in_cells(x);
-    const int i = Shape::cell(X.x), j = Shape::cell(X.y);
-    if (i < 0 || j < 0 || i >= l.nx || j >= l.ny)
-      return {};
-    const SurfacePoint s = surface_point(view, point, side, x, j * l.nx + i);
-    Seen<1> seen{x, 0, {}};
-    each_node(x, [&](int node, Vec2 place, double near, double wide) {
-      const int field = field_of_surface(view, s, node, place);
-      if (field >= 0)
-        add(seen, node, place, field, near, wide);
-    });
-    return fit_motion(seen.node, seen.count, grid.lattice.h);
+    for (int j = 0; j < width; ++j) {
+      RowSums row[2];
+      for (int i = 0; i < width; ++i) {
+        const int x = a[first].x.base + i, y = a[first].y.base + j, node = y * l.nx + x;
+        int field[2];
+        fields_of_surfaces(view, s, first, last, node, l.position(x, y), field);
+        for (int k = first; k < last; ++k)
+          if (field[k] >= 0)
+            add(row[k], a[k].x, i, node, field[k]);
+      }
+      for (int k = first; k < last; ++k)
+        sums[k].add(row[k], a[k].y, j);
+    }
+  }
+
+  /// Motions of the upper and the lower surface of a point.
+  void of_surfaces(const CrackPoint& point, const Vec2* x, PointMotion* motion) const {
+    const Lattice& l = grid.lattice;
+    const Around a[2] = {around(x[0]), around(x[1])};
+    if (!on_grid(a[0]) || !on_grid(a[1]))
+      return;
+    SurfacePoint s[2];
+    for (int k = 0; k < 2; ++k) {
+      const int i = Shape::cell((x[k].x - l.origin.x) * inv_h), j = Shape::cell((x[k].y - l.origin.y) * inv_h);
+      s[k] = surface_point(view, point, k == 0 ? Side::above : Side::below, x[k], j * l.nx + i);
+    }
+    MotionSums sums[2];
+    if (a[0].same_nodes(a[1])) {
+      add_surfaces(s, a, 0, 2, sums);
+    } else {
+      add_surfaces(s, a, 0, 1, sums);
+      add_surfaces(s, a, 1, 2, sums);
+    }
+    for (int k = 0; k < 2; ++k)
+      motion[k] = fit_motion(sums[k], l.h, dt);
   }
 
   PointMotion of_all_fields(Vec2 x) const {
-    Seen<4> seen{x, 0, {}};
-    each_node(x, [&](int node, Vec2 place, double near, double wide) {
-      add(seen, node, place, 0, near, wide);
-      const int f = fields.node_index[node];
-      if (f < 0)
-        return;
-      const int held = fields.nodes[f].crack[1] >= 0 ? 3 : fields.nodes[f].crack[0] >= 0 ? 1 : 0;
-      for (int field = 1; field <= held; ++field)
-        add(seen, node, place, field, near, wide);
-    });
-    return fit_motion(seen.node, seen.count, grid.lattice.h);
+    const Around a = around(x);
+    if (!on_grid(a))
+      return {};
+    MotionSums sums;
+    for (int j = 0; j < width; ++j) {
+      RowSums row;
+      for (int i = 0; i < width; ++i) {
+        const int node = (a.y.base + j) * grid.lattice.nx + a.x.base + i, f = fields.node_index[node];
+        const int held = f < 0 || fields.held[f] == 0 ? 0 : fields.held[f] == 1 ? 1 : 3;
+        for (int field = 0; field <= held; ++field)
+          add(row, a.x, i, node, field);
+      }
+      sums.add(row, a.y, j);
+    }
+    return fit_motion(sums, grid.lattice.h, dt);
   }
 };
 
@@ -137,16 +154,16 @@ void drop_light(const Cracks& cracks, long crack, std::vector<Found>& found) {
   const auto last = found.begin() + cracks.start[static_cast<size_t>(crack) + 1];
   double most = 0;
   for (auto f = first; f != last; ++f)
-    most = std::max({most, f->up.mass, f->low.mass});
+    most = std::max({most, f->surface[0].mass, f->surface[1].mass});
   for (auto f = first; f != last; ++f)
-    for (PointMotion* m : {&f->up, &f->low, &f->all})
+    for (PointMotion* m : {&f->surface[0], &f->surface[1], &f->all})
       if (m->mass < 0.2 * most)
         *m = {};
 }
 
 /// The moves of point k by what was found for it.
 Moves moves_of(const Found& found, CrackRules rules, double dt, long k, Cracks& cracks) {
-  const auto& [up, low, all] = found;
+  const PointMotion &up = found.surface[0], &low = found.surface[1], &all = found.all;
   const bool has_up = up.mass > 0, has_low = low.mass > 0, xpic = rules.update == SurfaceUpdate::xpic;
   Vec2* const up_velocity = xpic ? &cracks.upper_velocity[k] : nullptr;
   Vec2* const low_velocity = xpic ? &cracks.lower_velocity[k] : nullptr;
@@ -213,13 +230,15 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   const size_t points = static_cast<size_t>(cracks.points());
   std::vector<Found> found(points);
   std::vector<Moves> moves(points);
-  exec::parallel_tasks(space, "move cracks", cracks.points(), [&](long k) {
-    const CrackPoint point = crack_point(from.view, static_cast<int>(k));
-    Found& f = found[static_cast<size_t>(k)];
-    f.up = from.of_surface(point, Side::above, cracks.upper[k]);
-    f.low = from.of_surface(point, Side::below, cracks.lower[k]);
-    if (rules.motion == CrackMotion::center_of_mass)
-      f.all = from.of_all_fields(cracks.plane[k]);
+  exec::parallel_tasks(space, "move cracks", (cracks.points() + points_of_task - 1) / points_of_task, [&](long task) {
+    const long first = task * points_of_task, end = std::min<long>(cracks.points(), first + points_of_task);
+    for (long k = first; k < end; ++k) {
+      Found& f = found[static_cast<size_t>(k)];
+      const Vec2 surface[2] = {cracks.upper[k], cracks.lower[k]};
+      from.of_surfaces(crack_point(from.view, static_cast<int>(k)), surface, f.surface);
+      if (rules.motion == CrackMotion::center_of_mass)
+        f.all = from.of_all_fields(cracks.plane[k]);
+    }
   });
   exec::parallel_for(space, "move cracks", cracks.count(), [&](long c) { drop_light(cracks, c, found); });
   exec::parallel_for(space, "move cracks", cracks.points(), [&](long k) {

@@ -45,7 +45,7 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
                             }
                             if (word != 0)
-                              scatter_fields<true>(w, k, m[k], A, B, C, to, word, extra, mass, q);
+                              scatter_fields<true, Forces>(w, k, m[k], A, B, C, to, word, extra, mass, q);
                             else
                               scatter<true, Forces>(w, k, m[k], A, B, C, to);
                           });

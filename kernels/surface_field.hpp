@@ -18,8 +18,6 @@ struct SurfaceView {
   const int* cell_segment;
   const int* node_index;
   const NodeCracks* nodes;
-  const int* candidate_start;
-  const int* candidate;
   const int* crack;   ///< [points]
   const int* start;   ///< [cracks + 1]
   const Vec2* plane;  ///< [points]
@@ -32,8 +30,6 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
           fields.cell_segment.data(),
           fields.node_index.data(),
           fields.nodes.data(),
-          fields.candidate_start.data(),
-          fields.candidate.data(),
           cracks.crack.data(),
           cracks.start.data(),
           cracks.plane.data()};
@@ -56,16 +52,16 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
   const double length = norm(along), reach = 1.6 * view.lattice.h, bend = 0.25 * view.lattice.h;
   const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
   CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, length > 0};
-  for (int step : {-1, 1})
-    for (int k = point, end = step < 0 ? first : last;; k += step) {
+  for (int step : {-1, 1}) {
+    int k = point + step;
+    for (; k >= first && k <= last; k += step) {
       const Vec2 r = view.plane[k] - x;
       if (std::fabs(r.x) > reach || std::fabs(r.y) > reach)
         break;
       p.straight = p.straight && std::fabs(dot(r, p.left)) < bend && step * dot(r, t) >= 0;
-      p.tip = p.tip || k == end;
-      if (k == end)
-        break;
     }
+    p.tip = p.tip || k < first || k > last;
+  }
   return p;
 }
 
@@ -152,29 +148,36 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s,
 
 }  // namespace detail
 
-/// The field of `node`, which lies at `place`, for a surface point, or -1 if the node has no such field. A crack is
-/// crossed where the line from the surface to the node crosses it from the side that the node holds. Along the middle
-/// of its own crack that is where the node has crossings from this surface's side; near a tip the line may pass beyond,
-/// whatever the node holds. The field of a crack that the line crosses and the node does not hold is empty; only a
-/// crack beyond the two that a node can hold is ignored, as it is for particles.
-RIVEN_INLINE int field_of_surface(const SurfaceView& view, const SurfacePoint& s, int node, Vec2 place) {
+/// The fields of `node`, which lies at `place`, for the surfaces s[first] to s[last - 1] of one crack point, or -1
+/// where the node has no such field. A crack is crossed where the line from the surface to the node crosses it from the
+/// side that the node holds. Along the middle of its own crack that is where the node has crossings from this surface's
+/// side; near a tip the line may pass beyond, whatever the node holds. The field of a crack that the line crosses and
+/// the node does not hold is empty; only a crack beyond the two that a node can hold is ignored, as it is for
+/// particles.
+RIVEN_INLINE void fields_of_surfaces(const SurfaceView& view, const SurfacePoint* s, int first, int last, int node,
+                                     Vec2 place, int* field) {
+  field[0] = field[1] = 0;
   const int f = view.node_index[node];
   if (f < 0)
-    return 0;
+    return;
   const NodeCracks& held = view.nodes[f];
-  const int m = held.crack[1] == s.own.crack;
-  const bool holds = held.crack[m] == s.own.crack;
-  int field = holds && held.side[m] == s.side ? 1 << m : 0;
-  if (holds ? s.own.tip && field > 0 : true) {
-    const bool crosses = detail::crosses_own(view, s, place);
-    if (crosses && !holds && held.crack[1] < 0)
-      return -1;
-    field = crosses ? field : 0;
-  }
-  const int candidate = view.candidate_start[f];
-  if (view.candidate[candidate] == s.own.crack && view.candidate_start[f + 1] == candidate + 1)
-    return field;
-  return detail::cross_others(view, s, place, held, field);
+  const CrackPoint& own = s[first].own;
+  const int m = held.crack[1] == own.crack;
+  const bool holds = held.crack[m] == own.crack;
+  for (int k = first; k < last; ++k)
+    field[k] = holds && held.side[m] == s[k].side ? 1 << m : 0;
+  if (!holds || own.tip)
+    for (int k = first; k < last; ++k) {
+      if (holds && field[k] == 0)
+        continue;
+      const bool crosses = detail::crosses_own(view, s[k], place);
+      field[k] = !crosses ? 0 : holds ? field[k] : held.crack[1] < 0 ? -1 : 0;
+    }
+  if (held.sees == own.crack)
+    return;
+  for (int k = first; k < last; ++k)
+    if (field[k] >= 0)
+      field[k] = detail::cross_others(view, s[k], place, held, field[k]);
 }
 
 }  // namespace riven

@@ -17,16 +17,10 @@
 #pragma once
 #include <cmath>
 
+#include "core/math/quad.hpp"
 #include "core/math/vec.hpp"
 
 namespace riven {
-
-/// Motion of a node's field, as one point sees it.
-struct NodeMotion {
-  double weight, wide_weight;  ///< m_i N_i and m_i B_i, kg
-  Vec2 offset;                 ///< node - point, m
-  Vec2 before, acceleration;   ///< velocity before the forces, m/s, and m/s^2
-};
 
 struct PointMotion {
   double mass = 0;  ///< 0 where no mass was found
@@ -69,40 +63,69 @@ inline FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec2 Qx, 
           (A * (spread + 2 * lambda) - S * uneven) / det};
 }
 
+/// Nodes around a point along one axis: their distances r from it and their weights N and B.
+struct AxisWeights {
+  static constexpr int width = 3;
+  int base;  ///< the first
+  double r[width], near[width], wide[width];
+};
+
+/// Sums along one row of nodes, m being masses and q [vx vy ax ay] after the forces.
+struct RowSums {
+  Quad<double> near_q{}, wide_q{}, r_q{};  ///< m N q, m B q, m B rx q
+  Quad<double> mass{};                     ///< m B [1 rx rx^2 .], [. . . m N]
+  double near_r = 0;                       ///< m N rx
+
+  RIVEN_INLINE void add(double m, const Quad<double>& q, const AxisWeights& x, int i) {
+    const double N = x.near[i], B = x.wide[i], Br = B * x.r[i];
+    const Quad<double> mq = m * q;
+    near_q += N * mq;
+    wide_q += B * mq;
+    r_q += Br * mq;
+    mass += m * Quad<double>{B, Br, Br * x.r[i], N};
+    near_r += m * N * x.r[i];
+  }
+};
+
+/// Sums over all rows.
+struct MotionSums {
+  Quad<double> near_q{}, wide_q{}, rx_q{}, ry_q{};  ///< m N q, m B q, m B rx q, m B ry q
+  Quad<double> wide{}, wide_ry{}, wide_ry2{};       ///< m B [1 rx rx^2 .], m B ry [1 rx . .], m B ry^2 [1 . . .]
+  Quad<double> near{}, near_ry{};                   ///< m N [. . . 1], m N ry [. . . 1]
+  double near_rx = 0;
+
+  RIVEN_INLINE void add(const RowSums& row, const AxisWeights& y, int j) {
+    const double N = y.near[j], B = y.wide[j], r = y.r[j];
+    near_q += N * row.near_q;
+    wide_q += B * row.wide_q;
+    rx_q += B * row.r_q;
+    ry_q += (B * r) * row.wide_q;
+    wide += B * row.mass;
+    wide_ry += (B * r) * row.mass;
+    wide_ry2 += (B * r * r) * row.mass;
+    near += N * row.mass;
+    near_ry += (N * r) * row.mass;
+    near_rx += N * row.near_r;
+  }
+};
+
 /// The motion at the point. `h`: the cell.
-inline PointMotion fit_motion(const NodeMotion* node, int count, double h) {
-  PointMotion m;
-  Vec2 near, wide, velocity;
-  double wide_mass = 0;
-  for (int i = 0; i < count; ++i) {
-    m.mass += node[i].weight;
-    m.before += node[i].weight * node[i].before;
-    m.acceleration += node[i].weight * node[i].acceleration;
-    near += node[i].weight * node[i].offset;
-    wide_mass += node[i].wide_weight;
-    wide += node[i].wide_weight * node[i].offset;
-    velocity += node[i].wide_weight * node[i].before;
-  }
-  if (!(m.mass > 0))
+inline PointMotion fit_motion(const MotionSums& s, double h, double dt) {
+  const double mass = s.near[3];
+  if (!(mass > 0))
     return {};
-  m.before *= 1 / m.mass;
-  m.acceleration *= 1 / m.mass;
-  near *= 1 / m.mass;
-  wide *= 1 / wide_mass;
-  velocity *= 1 / wide_mass;
-  double Cxx = 0, Cxy = 0, Cyy = 0;
-  Vec2 Qx, Qy;
-  for (int i = 0; i < count; ++i) {
-    const double w = node[i].wide_weight / wide_mass;
-    const Vec2 r = node[i].offset - wide, u = node[i].before - velocity;
-    Cxx += w * r.x * r.x;
-    Cxy += w * r.x * r.y;
-    Cyy += w * r.y * r.y;
-    Qx += (w * r.x) * u;
-    Qy += (w * r.y) * u;
-  }
-  const FittedGradient L = fit_gradient(Cxx, Cxy, Cyy, Qx, Qy, h);
-  m.before += L(-near);
+  const auto before = [dt](const Quad<double>& q, double scale) {
+    return scale * Vec2{q[0] - dt * q[2], q[1] - dt * q[3]};
+  };
+  const double near = 1 / mass, wide = 1 / s.wide[0];
+  const Vec2 r{wide * s.wide[1], wide * s.wide_ry[0]}, v = before(s.wide_q, wide);
+  const Vec2 Qx = before(s.rx_q, wide) - r.x * v, Qy = before(s.ry_q, wide) - r.y * v;
+  const FittedGradient L = fit_gradient(wide * s.wide[2] - r.x * r.x, wide * s.wide_ry[1] - r.x * r.y,
+                                        wide * s.wide_ry2[0] - r.y * r.y, Qx, Qy, h);
+  PointMotion m;
+  m.mass = mass;
+  m.before = before(s.near_q, near) + L(-near * Vec2{s.near_rx, s.near_ry[3]});
+  m.acceleration = near * Vec2{s.near_q[2], s.near_q[3]};
   m.spin = L.spin;
   return m;
 }

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "core/exec/parallel.hpp"
+#include "core/state/crack_fields.hpp"
 #include "core/state/particles.hpp"
 #include "kernels/block.hpp"
 
@@ -28,15 +29,6 @@ RIVEN_ONCE void run_stretch(const Body& body, Crossing crossing, long first, lon
   own(crossing, first, last, more...);
 }
 
-/// True if some particle of the block sees a node across a crack.
-template <class Real>
-RIVEN_INLINE bool any_crossing(const ExtraSlots<Real>& e, long first, long last) {
-  std::uint32_t any = 0;
-  for (long p = first; p < last; ++p)
-    any |= e.word[p];
-  return any != 0;
-}
-
 /// body(crossing, first, last, more...) for a tile, cut into stretches of blocks in which no particle sees a node
 /// across a crack (std::false_type) and of blocks in which some do (std::true_type).
 template <class Real, class Body, class... More>
@@ -44,12 +36,13 @@ RIVEN_INLINE void each_stretch(const ExtraSlots<Real>& e, int tile, long first, 
                                More&... more) {
   if (!e.word || e.tile_marked[tile] == 0)
     return run_stretch(body, std::false_type{}, first, last, more...);
-  const auto block_end = [last](long begin) { return std::min<long>(last, begin + exec::lanes); };
+  const std::uint8_t* crosses = e.block_crosses + CrackFields::block_of(first, e.tile_marked[tile] - 1);
   while (first < last) {
-    const bool crossing = any_crossing(e, first, block_end(first));
-    long end = block_end(first);
-    while (end < last && any_crossing(e, end, block_end(end)) == crossing)
-      end = block_end(end);
+    const bool crossing = *crosses;
+    long end = first;
+    for (; end < last && *crosses == crossing; ++crosses)
+      end += exec::lanes;
+    end = std::min(end, last);
     if (crossing)
       run_stretch(body, std::true_type{}, first, end, more...);
     else

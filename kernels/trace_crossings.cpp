@@ -20,10 +20,10 @@ void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& f
   fields.turned.resize(nodes);
   fields.block_limit.resize(particles / exec::lanes + fields.marked_tiles.size() + 1);
   fields.tiles.resize(fields.marked_tiles.size());
-  fields.segment_normal.resize(4L * cracks.points());
   fields.crack_move.resize(cracks.count());
   fields.traced = cracks.plane;
   fields.fields.resize(particles);
+  fields.crossing.resize(fields.block_limit.size());
   fields.memory.zero();
   fields.limit.zero();
   fields.block_limit.zero();
@@ -31,30 +31,10 @@ void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& f
   for (TileTrace& t : fields.tiles)
     t.changed = 1;
   fields.fields.zero();
+  fields.crossing.zero();
   fields.tally.zero();
-  fields.share.zero();
   std::fill(fields.recount.begin(), fields.recount.end(), std::uint8_t{1});
   fields.used = 0;
-}
-
-/// Fixed-point unit normal of the segment that starts at a point, from above to below.
-void put_normal(const Vec2* point, std::int64_t* to) {
-  const Vec2 d = point[1] - point[0];
-  const double length = norm(d), scale = length > 0 ? CrackFields::unit / length : 0;
-  to[0] = static_cast<std::int64_t>(d.y * scale);
-  to[1] = static_cast<std::int64_t>(-d.x * scale);
-}
-
-/// Normals of all segments, those of the first positions if `first` says so.
-void follow_normals(const exec::Space& space, const Cracks& cracks, bool first, CrackFields& fields) {
-  exec::launch(space, (cracks.points() - 1 + exec::chunk - 1) / exec::chunk, [&](long c) {
-    const long end = std::min(cracks.points() - 1L, (c + 1) * exec::chunk);
-    for (long k = c * exec::chunk; k < end; ++k) {
-      put_normal(cracks.plane.data() + k, fields.segment_normal.data() + 4 * k);
-      if (first)
-        put_normal(cracks.plane0.data() + k, fields.segment_normal.data() + 4 * k + 2);
-    }
-  });
 }
 
 /// Moves of the cracks since the last trace.
@@ -145,7 +125,6 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
     begin_anew(particles.count(), lattice.nodes(), cracks, fields);
   fields.order = particles.tiles.order;
   ++fields.traces;
-  follow_normals(space, cracks, afresh, fields);
   follow_moves(space, cracks, fields);
   exec::launch(space, (fields.nodes.size() + exec::chunk - 1) / exec::chunk, [&](long c) {
     const long end = std::min(fields.nodes.size(), (c + 1) * exec::chunk);

@@ -18,7 +18,7 @@
 
 namespace riven {
 
-/// Brings `records`, `tally` and `share` up to date. `domains`: [bodies]. `tile_move`: [tiles] how far (m) a particle
+/// Brings `records` and `tally` up to date. `domains`: [bodies]. `tile_move`: [tiles] how far (m) a particle
 /// of the tile has moved along an axis since the last trace, at most; null if that is not known.
 template <class Shape, class Real>
 void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particles,

@@ -45,7 +45,7 @@ class Tracer {
     if (moves_known && !tile_->turned && tile_->path < tile_->limit)
       return;
     tile_->limit = never;
-    double* limit = fields_.block_limit.data() + (first / exec::lanes + marked);
+    double* limit = fields_.block_limit.data() + CrackFields::block_of(first, marked);
     for (long block = first; block < last; block += exec::lanes, ++limit) {
       if (!moves_known || tile_->turned || !(tile_->path < *limit))
         *limit = look(block, std::min(last, block + exec::lanes), moves_known);
@@ -59,11 +59,6 @@ class Tracer {
   static constexpr int width = Shape::width;
   static constexpr int nodes = width * width;
   static constexpr int groups = Paths<Shape>::groups;
-
-  /// A segment that the path to one node crosses: +1 from above, -1 from below.
-  struct Hit {
-    int neighbour, segment, sign;
-  };
 
   Real place_x(long p) const { return (in_.particles.x[0][p] - Real(in_.lattice.origin.x)) * Real(inv_h_); }
   Real place_y(long p) const { return (in_.particles.x[1][p] - Real(in_.lattice.origin.y)) * Real(inv_h_); }
@@ -186,7 +181,6 @@ class Tracer {
 
   void trace_crack(const Paths<Shape>& paths, int crack, SegmentList list) {
     constexpr int batch = Paths<Shape>::batch;
-    hits_ = 0;
     CrossingSum sum[nodes];
     for (int s = 0; s < list.count; s += batch) {
       const SegmentList part{list.segment + s, std::min(batch, list.count - s)};
@@ -197,15 +191,10 @@ class Tracer {
         if (const auto some = static_cast<std::uint32_t>(bits[k / float_lanes][k % float_lanes]))
           test(paths, k, crack, part, some, sum[k]);
     }
-    unsigned crossed = 0;
-    for (int n = 0; n < hits_; ++n) {
-      const Hit& hit = hit_[n];
-      if (sum[hit.neighbour].side() == Side::none)
-        continue;
-      record(paths, crack, hit, sum[hit.neighbour].net < 0, !(crossed >> hit.neighbour & 1u));
-      crossed |= 1u << hit.neighbour;
-    }
-    take_crack_clearance(paths, crack, crossed, list);
+    for (int k = 0; k < nodes; ++k)
+      if (const Side side = sum[k].side(); side != Side::none)
+        record(paths, crack, k, side == Side::below);
+    take_crack_clearance(paths, crack, list);
   }
 
   void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits, CrossingSum& sum) {
@@ -213,29 +202,17 @@ class Tracer {
               last = in_.cracks.start[static_cast<size_t>(crack) + 1];
     for (; bits; bits &= bits - 1) {
       const int segment = list.segment[std::countr_zero(bits)];
-      const int c = crossing(paths.particle, node(paths, k), in_.cracks.plane.data() + segment, segment == first,
-                             segment + 2 == last);
-      if (c == 0)
-        continue;
-      sum.add(c);
-      if (hits_ == hit_.size())
-        hit_.resize(2 * hit_.size() + 32);
-      hit_[hits_++] = {k, segment, c};
+      sum.add(crossing(paths.particle, node(paths, k), in_.cracks.plane.data() + segment, segment == first,
+                       segment + 2 == last));
     }
   }
 
-  void record(const Paths<Shape>& paths, int crack, const Hit& hit, bool below, bool leads) {
-    const int k = hit.neighbour;
+  void record(const Paths<Shape>& paths, int crack, int k, bool below) {
     const int f = fields_.node_index[static_cast<long>(paths.j + k / width) * in_.lattice.nx + paths.i + k % width];
     int at = fields_.candidate_start[f];
     while (fields_.candidate[at] != crack)
       ++at;
-    int segment = fields_.segment_start[at];
-    while (fields_.node_segment[segment] != hit.segment)
-      ++segment;
-    records_.add({f, 2 * at + below, 2 * segment + below, static_cast<std::uint8_t>(k), leads,
-                  static_cast<std::uint8_t>(weighed_ >> k & 1u),
-                  static_cast<std::int8_t>(below ? -hit.sign : hit.sign)});
+    records_.add({f, 2 * at + below, static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(weighed_ >> k & 1u)});
   }
 
   /// A bit for each node on which the particle has a weight.
@@ -273,27 +250,18 @@ class Tracer {
     }
   }
 
-  /// Takes the distances of the particle from the segments of one crack, of the crack's tips from all paths, and of
-  /// its joints from the paths that cross it.
-  void take_crack_clearance(const Paths<Shape>& paths, int crack, unsigned crossed, SegmentList list) {
+  /// Takes the distances of the particle from the segments of one crack, and of the crack's tips from all paths.
+  void take_crack_clearance(const Paths<Shape>& paths, int crack, SegmentList list) {
     const int first = in_.cracks.start[static_cast<size_t>(crack)],
               last = in_.cracks.start[static_cast<size_t>(crack) + 1] - 1;
     const Vec2* point = in_.cracks.plane.data();
-    Masks all[groups], some[groups];
-    for (int g = 0; g < groups; ++g) {
-      all[g] = ~Masks{};
-      some[g] = Paths<Shape>::lanes_of(crossed, g);
-    }
-    const auto take = [&](const Masks* paths_of, int at) {
-      paths.take_distance2(point[at], inv_h_, paths_of, path_clear2_);
-    };
     for (int s = 0; s < list.count; ++s) {
       const int a = list.segment[s];
       clear2_ = std::min(clear2_, distance2(paths.particle, point[a], point[a + 1]));
-      if (a == first || crossed)
-        take(a == first ? all : some, a);
-      if ((a + 1 == last || crossed) && (a + 1 == last || s + 1 == list.count || list.segment[s + 1] != a + 1))
-        take(a + 1 == last ? all : some, a + 1);
+      if (a == first)
+        paths.take_distance2(point[a], inv_h_, path_clear2_);
+      if (a + 1 == last)
+        paths.take_distance2(point[a + 1], inv_h_, path_clear2_);
     }
   }
 
@@ -312,10 +280,8 @@ class Tracer {
   double inv_h_, rounding_;
   TileTrace* tile_ = nullptr;
   double clear2_ = 0;           ///< squared clearance of the particle in hand
-  Floats path_clear2_[groups];  ///< squared distances in cells of tips and joints from its paths
+  Floats path_clear2_[groups];  ///< squared distances in cells of tips from its paths
   unsigned weighed_ = 0;        ///< nodes on which the particle in hand has a weight
-  exec::Array<Hit> hit_;        ///< of one crack
-  int hits_ = 0;
 };
 
 }  // namespace riven

@@ -71,7 +71,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
             const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
                 C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
             if (word != 0)
-              scatter_fields<false>(w, k, Real(0), A, B, C, to, word, extra, static_cast<Real*>(nullptr), q);
+              scatter_fields<false, true>(w, k, Real(0), A, B, C, to, word, extra, static_cast<Real*>(nullptr), q);
             else
               scatter<false, true>(w, k, Real(0), A, B, C, to);
           });

@@ -36,9 +36,12 @@ Positions<Real> positions(const State<Real, 2>& s) {
 
 /// How particles reach the extra slots; `shared` when several tiles may write to a slot at once.
 template <class Real>
+ExtraSlots<Real> extra_slots(const CrackFields& f, const Lattice& l, bool shared) {
+  return {f.fields.data(), f.tile_marked.data(), f.crossing.data(), f.extra.data(), l.nodes(), l.nx, shared};
+}
+template <class Real>
 ExtraSlots<Real> extra_slots(const State<Real, 2>& s, bool shared) {
-  const Lattice& l = s.grid.lattice;
-  return {s.fields.fields.data(), s.fields.tile_marked.data(), s.fields.extra.data(), l.nodes(), l.nx, shared};
+  return extra_slots<Real>(s.fields, s.grid.lattice, shared);
 }
 
 template <class Law, class Real>

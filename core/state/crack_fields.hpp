@@ -13,24 +13,23 @@ enum class Side : std::uint8_t { none = 0, above = 1, below = 2 };
 /// What one node that may see cracks knows after `assign`. crack[k] < 0 where there is no such crack.
 /// Field = 1 (crosses crack[0]) + 2 (crosses crack[1]). side[k] is where the particles that cross crack k
 /// come from; the node itself lies on the opposite side. Of two cracks the lower number is first.
-struct NodeCracks {
+/// All but `normal0` is in one cache line.
+struct alignas(64) NodeCracks {
   int node = -1;
+  int extra = 0;  ///< CrackFields::extra of the node
+  int sees = -1;  ///< the crack that the node may see, or -1 where there are several
   int crack[2] = {-1, -1};
   Side side[2] = {Side::none, Side::none};
-  Vec2 normal[2];   ///< averaged over the crossings, unit length, from above to below
+  Vec2 normal[2];   ///< averaged around the node, unit length, from above to below
   Vec2 normal0[2];  ///< the same of the crack's first position
 };
 
-/// One segment that the path from a particle to one of its nodes crosses. A path that crosses a crack several times has
-/// as many records for it, the first of which counts as the crossing.
+/// The path from a particle to one of its nodes crosses a crack.
 struct CrossingRecord {
   int node;                ///< position in CrackFields::nodes
   int entry;               ///< 2 * (position in CrackFields::candidate) + (comes from below)
-  int share;               ///< 2 * (position in CrackFields::node_segment) + (comes from below)
   std::uint8_t neighbour;  ///< which of the particle's nodes, row by row from the lower left
-  std::uint8_t leads;      ///< 1 for the first record of a path and a crack
   std::uint8_t weighs;     ///< the shape function is not zero there; else nothing follows from the crossing
-  std::int8_t sign;        ///< of the segment's normal: -1 where the path comes back through the crack
 
   bool operator==(const CrossingRecord&) const = default;
 };
@@ -71,9 +70,8 @@ struct TileTrace {
 };
 
 struct CrackFields {
-  static constexpr int bits = 2;             ///< of a field number
-  static constexpr double margin = 0.25;     ///< cells that a crack point may move before the hash is due
-  static constexpr double unit = 1ll << 40;  ///< fixed-point one of the summed normals
+  static constexpr int bits = 2;          ///< of a field number
+  static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
 
   // hash: cells, tiles and nodes that may see cracks; remade when a crack has moved by more than the margin.
   // A cell carries the number of the node that the shape function sorts its particles by.
@@ -99,31 +97,33 @@ struct CrackFields {
 
   // trace: crossings, and their sums for each node. They are kept from step to step and changed where a particle's
   // crossings change. Sums are of integers, so that they do not depend on the order of the particles.
-  exec::Array<std::int64_t> segment_normal;  ///< [4 points] fixed-point unit normals of now and of the first position
-  exec::Array<Vec2> traced;                  ///< [points] crack points at the last trace
-  exec::Array<double> crack_move;            ///< [cracks] m, largest move of its points since the trace before
-  double travel = 0;                         ///< m, sum over the steps of the largest of these
-  exec::Array<NodeClearance> clearance;      ///< [flagged]
-  int traces = 0;                            ///< so far
-  exec::Array<int> turned;                   ///< [nodes] the last trace before which a node of this cell changed sides
+  exec::Array<Vec2> traced;              ///< [points] crack points at the last trace
+  exec::Array<double> crack_move;        ///< [cracks] m, largest move of its points since the trace before
+  double travel = 0;                     ///< m, sum over the steps of the largest of these
+  exec::Array<NodeClearance> clearance;  ///< [flagged]
+  int traces = 0;                        ///< so far
+  exec::Array<int> turned;               ///< [nodes] the last trace before which a node of this cell changed sides
   exec::Array<CrossingRecord> records;
   long used = 0;                       ///< records given away
   exec::Array<CrossingMemory> memory;  ///< [particles]
   exec::Array<double> limit;           ///< [particles] as TileTrace::limit
-  exec::Array<double> block_limit;     ///< [blocks of particles] the least of these
+  exec::Array<double> block_limit;     ///< [blocks of particles] the least of these; see block_of
   exec::Array<TileTrace> tiles;        ///< [marked tiles]
   long order = -1;                     ///< Tiles::order of the particles that `memory` is about; -1: nothing is known
   exec::Array<int> tally;              ///< [2 candidates] crossings from above and from below
-  exec::Array<int> share;              ///< [2 node_segment] times that a segment's normal is in the sum of its node
   exec::Array<std::uint8_t> recount;   ///< [flagged] 1 where sums have changed
 
   // assign
-  exec::Array<std::uint8_t> verdict;  ///< [2 candidates] what a crossing of this entry means
-  exec::Array<std::uint32_t> fields;  ///< [particles] `bits` for each neighbour node, row by row from the lower left
+  exec::Array<std::uint8_t> verdict;   ///< [2 candidates] what a crossing of this entry means
+  exec::Array<std::uint32_t> fields;   ///< [particles] `bits` for each neighbour node, row by row from the lower left
+  exec::Array<std::uint8_t> crossing;  ///< [blocks of particles] 1 if `fields` is not 0 for some; see block_of
   long warning_both_sides = 0;  ///< warning 1 (see assign_fields.hpp), summed over steps: pairs that cross a crack from
                                 ///< the side which fewer pairs of the node come from
   long warning_third_crack = 0;  ///< warning 2: pairs that cross a crack beyond the two held by the node
   Vec2 warning_place[2];         ///< the node at which each was seen first
+
+  /// Number of the block that begins with particle `first`, in the marked tile of this number.
+  static RIVEN_INLINE long block_of(long first, long marked) { return first / exec::lanes + marked; }
 };
 
 }  // namespace riven

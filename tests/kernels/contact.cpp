@@ -88,22 +88,39 @@ Vec2 stay(Vec2 X) {
   return X;
 }
 
-/// Masses of the slots of flagged nodes as the sums have them.
-void set_masses(Setting& s) {
-  for (long i = 0; i < s.fields.nodes.size(); ++i) {
-    const NodeCracks& n = s.fields.nodes[i];
-    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4) && n.crack[0] >= 0; ++f)
-      s.grid.mass[f == 0 ? n.node : long{s.lattice.nodes()} + s.fields.extra[n.node] + f - 1] =
-          s.sums.field[4 * i + f].mass;
+long slot_of(const Setting& s, const NodeCracks& n, int field) {
+  return field == 0 ? n.node : long{s.lattice.nodes()} + s.fields.extra[n.node] + field - 1;
+}
+
+/// f(flagged node, field, particle, weight) for all pairs of particles and nodes that hold cracks.
+template <class Shape, class F>
+void each_pair(const Setting& s, const F& f) {
+  const Particles<double, 2>& p = s.particles;
+  for (int i = 0; i < p.count(); ++i) {
+    const auto a = Shape::axis(p.x[0][i] - s.lattice.origin.x, s.domains[0].axis[0]);
+    const auto b = Shape::axis(p.x[1][i] - s.lattice.origin.y, s.domains[0].axis[1]);
+    for (int k = 0; k < neighbours<Shape, 2>; ++k) {
+      const int index = s.fields.node_index[(b.base + k / Shape::width) * s.lattice.nx + a.base + k % Shape::width];
+      if (index >= 0 && s.fields.nodes[index].crack[0] >= 0)
+        f(index, (s.fields.fields[i] >> (2 * k)) & 3u, i, a.s[k % Shape::width] * b.s[k / Shape::width]);
+    }
   }
 }
 
+/// Masses of the slots of nodes that hold cracks.
+template <class Shape = UGimp>
+void set_masses(Setting& s) {
+  s.grid.mass.zero();
+  each_pair<Shape>(s, [&](int index, int field, int i, double S) {
+    s.grid.mass[slot_of(s, s.fields.nodes[index], field)] += s.particles.mass[i] * S;
+  });
+}
+
+template <class Shape = UGimp>
 void sum(Setting& s, const exec::Space& space, ShapeFunction shape = ShapeFunction::ugimp, double thickness = 2) {
-  for (ContactSumsChoice choice : {ContactSumsChoice{true, true, false}, ContactSumsChoice{true, true, true}}) {
-    contact_sums(space, shape, choice, s.particles, s.domains, s.specific_area, s.grid, s.fields, s.cracks, thickness,
-                 s.sums);
-    set_masses(s);
-  }
+  set_masses<Shape>(s);
+  contact_sums(space, shape, {true, true, true}, s.particles, s.domains, s.specific_area, s.grid, s.fields, s.cracks,
+               thickness, s.sums);
 }
 
 const Line level{{1, 12.3}, {23, 12.3}};
@@ -117,34 +134,28 @@ void check_sums(ShapeFunction shape) {
   std::uniform_real_distribution<double> any(-0.3, 0.3);
   for (int i = 0; i < s.particles.count(); ++i)
     s.particles.J[i] = 1 + any(rng);
-  sum(s, exec::Space(), shape);
-  std::vector<ContactField> expected(static_cast<size_t>(s.sums.field.size()));
+  sum<Shape>(s, exec::Space(), shape);
+  const size_t slots = static_cast<size_t>(s.grid.slots());
+  std::vector<double> volume(slots);
+  std::vector<Vec2> place(slots);
   const Particles<double, 2>& p = s.particles;
-  for (int i = 0; i < p.count(); ++i) {
-    const auto a = Shape::axis(p.x[0][i] - s.lattice.origin.x, s.domains[0].axis[0]);
-    const auto b = Shape::axis(p.x[1][i] - s.lattice.origin.y, s.domains[0].axis[1]);
-    for (int k = 0; k < neighbours<Shape, 2>; ++k) {
-      const int n = (b.base + k / Shape::width) * s.lattice.nx + a.base + k % Shape::width;
-      const int index = s.fields.node_index[n];
-      if (index < 0 || s.fields.nodes[index].crack[0] < 0)
-        continue;
-      ContactField& f = expected[static_cast<size_t>(4 * index + ((s.fields.fields[i] >> (2 * k)) & 3u))];
-      const double S = a.s[k % Shape::width] * b.s[k / Shape::width];
-      f.mass += 0.5 * S;
-      f.area += 0.25 * p.J[i] * S;
-      f.x += 0.5 * S * (Vec2{p.x[0][i], p.x[1][i]} - s.lattice.position(n));
+  each_pair<Shape>(s, [&](int index, int field, int i, double S) {
+    const NodeCracks& n = s.fields.nodes[index];
+    const size_t slot = static_cast<size_t>(slot_of(s, n, field));
+    volume[slot] += 0.25 * p.J[i] * S;
+    place[slot] += 0.5 * S * (Vec2{p.x[0][i], p.x[1][i]} - s.lattice.position(n.node));
+  });
+  double total = 0;
+  for (const NodeCracks& n : s.fields.nodes)
+    for (int f = 0; n.crack[0] >= 0 && f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+      const long slot = slot_of(s, n, f);
+      const double* sums = &s.sums.place[4 * slot];
+      EXPECT_NEAR(s.sums.volume[slot], volume[static_cast<size_t>(slot)], 1e-14);
+      EXPECT_NEAR(norm(Vec2{sums[0], sums[1]} - place[static_cast<size_t>(slot)]), 0, 1e-14);
+      EXPECT_NEAR(norm(Vec2{sums[2] - sums[0], sums[3] - sums[1]}), 0, 1e-14);  // nothing has moved
+      total += s.sums.volume[slot];
     }
-  }
-  double mass = 0;
-  for (size_t i = 0; i < expected.size(); ++i) {
-    const ContactField &e = expected[i], &f = s.sums.field[static_cast<long>(i)];
-    EXPECT_NEAR(f.mass, e.mass, 1e-14);
-    EXPECT_NEAR(f.area, e.area, 1e-14);
-    EXPECT_NEAR(norm(f.x - e.x), 0, 1e-14);
-    EXPECT_NEAR(norm(f.X - f.x), 0, 1e-14);  // nothing has moved
-    mass += f.mass;
-  }
-  EXPECT_GT(mass, 10);
+  EXPECT_GT(total, 5);
 }
 
 TEST(ContactSums, EqualBruteForce) {
@@ -187,12 +198,16 @@ std::pair<double, double> gaps(Setting& s, double least_mass = 0) {
     const NodeCracks& n = s.fields.nodes[i];
     if (n.crack[0] < 0)
       continue;
-    const ContactField* f = &s.sums.field[4 * i];
-    if (f[0].mass <= least_mass || f[1].mass <= least_mass)
+    double mass[4] = {};
+    long slot[4] = {};
+    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+      slot[f] = slot_of(s, n, f);
+      mass[f] = s.grid.mass[slot[f]];
+    }
+    if (mass[0] <= least_mass || mass[1] <= least_mass)
       continue;
-    const double mass[4] = {f[0].mass, f[1].mass, f[2].mass, f[3].mass};
     const Meetings m = find_meetings(n, mass, s.cracks.contact.data());
-    const double g = gap_of(m.list[0], f);
+    const double g = gap_of(m.list[0], s.sums.place.data(), slot, mass);
     low = std::min(low, g);
     high = std::max(high, g);
   }
@@ -336,8 +351,12 @@ TEST(ContactKernel, IsTheSameToTheBitInEverySpaceAndOnAnyNumberOfThreads) {
     contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::before, dt, s.sums, report);
     contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report);
     std::vector<double> all(s.grid.q.begin(), s.grid.q.end());
-    for (const ContactField& f : s.sums.field)
-      all.insert(all.end(), {f.mass, f.area, f.x.x, f.x.y, f.X.x, f.X.y});
+    for (const NodeCracks& n : s.fields.nodes)
+      for (int f = 0; n.crack[0] >= 0 && f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+        const long slot = slot_of(s, n, f);
+        const double* place = &s.sums.place[4 * slot];
+        all.insert(all.end(), {s.sums.volume[slot], place[0], place[1], place[2], place[3]});
+      }
     for (const ContactArea& a : s.sums.area)
       all.insert(all.end(), {a.area, a.opening.x, a.opening.y});
     all.insert(all.end(), {report.work, report.interface_work, report.penetration, report.gap});

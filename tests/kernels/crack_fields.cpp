@@ -152,9 +152,14 @@ std::string compare(const Lattice& l, const Case& c, const Particles<double, 2>&
         continue;
       if (n.crack[m] != e.crack[m] || n.side[m] != e.side[m])
         return "crack or side of node " + std::to_string(n.node);
+      // one point for each piece of up to 0.6 cells: off the integral by 0.044 at most on these sets, whose kinks are
+      // sharp
       const double length = norm(e.normal[m]);
-      if (length > 1e-6 && norm(n.normal[m] - e.normal[m] * (1 / length)) > 1e-9 / length)
-        return "normal of node " + std::to_string(n.node);
+      if (length > 0.3 && norm(n.normal[m] - e.normal[m] * (1 / length)) > 0.06)
+        return "normal of node " + std::to_string(n.node) + " off by " +
+               std::to_string(norm(n.normal[m] - e.normal[m] * (1 / length)));
+      if (std::fabs(norm(n.normal[m]) - 1) > 1e-12 && length > 1e-9)
+        return "length of the normal of node " + std::to_string(n.node);
       if (m == 1 && f.candidate_start[f.node_index[n.node] + 1] - f.candidate_start[f.node_index[n.node]] < 2)
         return "no slots for the second crack of node " + std::to_string(n.node);
     }
@@ -249,6 +254,40 @@ TEST(CrackFields, EqualExactParityNextToTies) {
     run<UGimp>(serial, l, p, cracks_of(c), f);
     ASSERT_EQ(compare<UGimp>(l, c, p, f, {0, 0}), "") << "crack set " << number;
   }
+}
+
+TEST(CrackFields, NormalsFollowACurvedCrack) {
+  // a circle of radius R in segments of half a cell: its normals are radial, and the mean of B over the crack keeps
+  // that to second order in the angle under which the cell is seen from the centre
+  const Lattice l = unit_cells(24, 24);
+  const Vec2 centre{12.1, 11.7};
+  std::vector<Vec2> particles;
+  for (int i = 0; i < 48 * 48; ++i)
+    particles.push_back({0.5 * (i % 48) + 0.25, 0.5 * (i / 48) + 0.25});
+  const auto p = sorted_particles<UGimp>(l, particles, in_order(particles.size()));
+  double worst[2];
+  for (int k = 0; k < 2; ++k) {
+    const double R = 4 * (k + 1), step = 0.5 / R;
+    std::vector<Vec2> arc;
+    for (double angle = -2; angle <= 2; angle += step)
+      arc.push_back(centre + R * Vec2{std::cos(angle), std::sin(angle)});
+    const Cracks cracks = crack_scene::cracks_of({arc});
+    CrackFields f;
+    run<UGimp>(exec::Space(), l, p, cracks, f);
+    worst[k] = 0;
+    int held = 0;
+    for (const NodeCracks& n : f.nodes) {
+      const Vec2 r = l.position(n.node) - centre;
+      if (n.crack[0] < 0 || std::fabs(std::atan2(r.y, r.x)) > 2 - 2 / R)  // away from the tips
+        continue;
+      ++held;
+      EXPECT_NEAR(norm(n.normal[0]), 1, 1e-14);
+      worst[k] = std::max(worst[k], norm(n.normal[0] - r * (1 / norm(r))));
+    }
+    EXPECT_GT(held, 20);
+  }
+  EXPECT_LT(worst[0], 0.03 / 4);
+  EXPECT_LT(worst[1], 0.03 / 8);
 }
 
 bool same_nodes(const CrackFields& a, const CrackFields& b) {

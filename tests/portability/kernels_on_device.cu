@@ -23,7 +23,7 @@ __global__ void step(long particles, Positions<Real> positions, const Law* laws,
     scatter<true, true>(w, 0, Real(1), one, one, one, grid);
     g = gather<true>(w, 0, q, nx);
   } else {
-    scatter_fields<true>(w, 0, Real(1), one, one, one, grid, word, extra, mass, q);
+    scatter_fields<true, true>(w, 0, Real(1), one, one, one, grid, word, extra, mass, q);
     g = gather_fields<true>(w, 0, q, word, extra);
   }
   const Law law = laws[body[p]];
