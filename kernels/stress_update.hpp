@@ -1,11 +1,12 @@
 // Takes the stresses of a block of particles through one strain increment (Nairn 2003, eqs. 34-36), then the law:
 //   A = dt grad v_p,   grad v_p = sum v_ij (x) G_ip,
 //   USL, MUSL, USF   dF = exp(A)
-//   USAVG            dF = exp(A M / 2) before and after the momentum update,   M = (I + A/2)^-1 of the one before.
-// In USAVG M takes gradients from the positions at the start of the step to those in its middle. Two halves then make
-// up I + A, which is how the particles move, to second order; and they take from the stresses P = tau M^T just the work
-// that these do on the grid. Without M the body that F describes shrinks against the one that moves by |A|^2 / 2 in
-// every step: a disk would grow by 2 % in a turn of 1,000 steps, and gain as much angular momentum.
+//   USAVG            dF = exp(A M / 2) before and after the momentum update,   M = (I + A/2)^-1 of each.
+// In USAVG M takes gradients from the positions at the start of the step to those in its middle. Two halves, A_1 before
+// and A_2 after, then make up I + (A_1 + A_2) / 2, which is how the particles move, to terms in A_2 - A_1; and they
+// take from the stresses P = tau M^T just the work that these do on the grid. Without M the body that F describes
+// shrinks against the one that moves by |A|^2 / 2 in every step: a disk would grow by 2 % in a turn of 1,000 steps, and
+// gain as much angular momentum.
 #pragma once
 #include "kernels/views.hpp"
 #include "kernels/watch.hpp"
@@ -26,21 +27,21 @@ struct GradientLanes {
   RIVEN_INLINE Mat2<Real> over(int k, Real dt) const { return {dt * xx[k], dt * xy[k], dt * yx[k], dt * yy[k]}; }
 };
 
-/// M of particle i.
+/// M of each lane (USAVG).
 template <class Real>
-RIVEN_INLINE Mat2<Real> middle(const ParticleView<Real>& p, long i) {
-  return {p.Mxx[i], p.Mxy[i], p.Myx[i], p.Myy[i]};
+RIVEN_INLINE Mat2<Real> middle(const GradientLanes<Real>& g, int k, Real dt) {
+  return inverse_of_one_plus(g.over(k, Real(0.5) * dt));
 }
 
 namespace detail {
 
-/// dF - I of particle i.
+/// dF - I of a lane.
 template <bool Averaged, class Real>
-RIVEN_INLINE Mat2<Real> increment(const ParticleView<Real>& p, long i, const Mat2<Real>& A) {
+RIVEN_INLINE Mat2<Real> increment(const GradientLanes<Real>& g, int k, Real dt) {
   if constexpr (Averaged)
-    return exp_minus_identity(Real(0.5) * (A * middle(p, i)));
+    return exp_minus_identity(g.over(k, Real(0.5) * dt) * middle(g, k, dt));
   else
-    return exp_minus_identity(A);
+    return exp_minus_identity(g.over(k, dt));
 }
 
 template <bool Averaged, class Law, class Real, class LawOf>
@@ -56,7 +57,7 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
       s.F = {p.Fxx[i], p.Fxy[i], p.Fyx[i], p.Fyy[i]};
     else
       s.J = p.J[i];
-    law_of(i).update(increment<Averaged>(p, i, g.over(k, dt)), s);
+    law_of(i).update(increment<Averaged>(g, k, dt), s);
     p.sxx[i] = s.xx;
     p.syy[i] = s.yy;
     p.sxy[i] = s.xy;
@@ -73,19 +74,6 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
 }
 
 }  // namespace detail
-
-/// Sets M of each lane (USAVG, before).
-template <class Real>
-RIVEN_INLINE void find_middle(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
-                              Real dt) {
-  exec::for_lanes(count, [&](int k) RIVEN_LANE {
-    const Mat2<Real> M = inverse_of_one_plus(g.over(k, Real(0.5) * dt));
-    p.Mxx[first + k] = M.xx;
-    p.Mxy[first + k] = M.xy;
-    p.Myx[first + k] = M.yx;
-    p.Myy[first + k] = M.yy;
-  });
-}
 
 /// Updates particles first .. first + count - 1.
 template <bool Averaged, class Law, class Real>

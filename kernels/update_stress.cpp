@@ -25,13 +25,13 @@ struct StressLanes {
   alignas(64) Real xx[exec::lanes], xy[exec::lanes], yx[exec::lanes], yy[exec::lanes];
 
   template <bool Averaged>
-  RIVEN_INLINE void take(const ParticleView<Real>& p, long first, int count) {
+  RIVEN_INLINE void take(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g, Real dt) {
     exec::for_lanes(count, [&](int k) RIVEN_LANE {
       const long i = first + k;
       const Real m = -p.mass[i], sxy = m * p.sxy[i];
       Mat2<Real> P{m * p.sxx[i], sxy, sxy, m * p.syy[i]};
       if constexpr (Averaged)
-        P = P * transposed(middle(p, i));
+        P = P * transposed(middle(g, k, dt));
       xx[k] = P.xx;
       xy[k] = P.xy;
       yx[k] = P.yx;
@@ -62,10 +62,8 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
           gather_gradients<crossing.value>(w, first, count, q, nx, extra, gradient);
-          if constexpr (Averaged)
-            find_middle(p, first, count, gradient, step);
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
-          stress.template take<Averaged>(p, first, count);
+          stress.template take<Averaged>(p, first, count, gradient, step);
           each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
             const Real m = p.mass[first + k];
             const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},

@@ -15,15 +15,13 @@ struct ParticleView {
   Real *sxx, *syy, *sxy;
   Real* mass;
   Real *step_x, *step_y;
-  Real *Mxx, *Mxy, *Myx, *Myy;  ///< Particles::middle
 };
 
 template <class Real>
 ParticleView<Real> view(Particles<Real, 2>& p) {
-  return {p.x[0].data(),      p.x[1].data(),      p.v[0].data(),      p.v[1].data(),     p.F[0].data(),
-          p.F[1].data(),      p.F[2].data(),      p.F[3].data(),      p.J.data(),        p.stress[0].data(),
-          p.stress[1].data(), p.stress[2].data(), p.mass.data(),      p.step[0].data(),  p.step[1].data(),
-          p.middle[0].data(), p.middle[1].data(), p.middle[2].data(), p.middle[3].data()};
+  return {p.x[0].data(),      p.x[1].data(),      p.v[0].data(), p.v[1].data(),    p.F[0].data(),
+          p.F[1].data(),      p.F[2].data(),      p.F[3].data(), p.J.data(),       p.stress[0].data(),
+          p.stress[1].data(), p.stress[2].data(), p.mass.data(), p.step[0].data(), p.step[1].data()};
 }
 
 template <class Real>

@@ -92,9 +92,6 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   if (plan.extrapolate_again())
     for (auto& a : p.step)
       a.resize(n);
-  if (plan.averaged())
-    for (auto& a : p.middle)
-      a.resize(n);
   for (long i = 0; i < n; ++i) {
     const Seed& seed = seeds[static_cast<size_t>(i)];
     p.x[0][i] = Real(seed.x.x);
@@ -156,7 +153,6 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: mass", p.mass);
   add("particles: first position", p.x0[0], p.x0[1]);
   add("particles: move of the step", p.step[0], p.step[1]);
-  add("particles: middle of the step", p.middle[0], p.middle[1], p.middle[2], p.middle[3]);
   add("particles: body", p.body);
   add("particles: id", p.id);
   const CrackFields& f = s.fields;

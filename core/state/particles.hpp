@@ -29,7 +29,6 @@ struct Particles {
   exec::Array<Real> mass;               ///< kg
   exec::Array<Real> x0[Dim];            ///< first position, m (displacement-based contact, probes)
   exec::Array<Real> step[Dim];          ///< move of this step, applied after the stresses (MUSL, USAVG)
-  exec::Array<Real> middle[tensor];     ///< what takes gradients to the middle of this step (USAVG)
   exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
   exec::Array<int> id;                  ///< stable number, 0 .. n-1
   Tiles tiles;
@@ -56,8 +55,6 @@ struct Particles {
     for (auto& a : x0)
       some(a);
     for (auto& a : step)
-      some(a);
-    for (auto& a : middle)
       some(a);
     some(body);
     some(id);
