@@ -137,7 +137,8 @@ std::string read_all(int descriptor) {
 
 TEST(ResultsProgress, ATerminalSeesTheEndAndANewLine) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-  ASSERT_GE(terminal, 0);
+  if (terminal < 0)
+    GTEST_SKIP() << "no terminal can be opened here";
   ASSERT_EQ(grantpt(terminal) | unlockpt(terminal), 0);
   const int screen = open(ptsname(terminal), O_RDWR | O_NOCTTY);
   ASSERT_GE(screen, 0);
