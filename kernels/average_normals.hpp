@@ -49,7 +49,7 @@ RIVEN_INLINE Vec2 unit(Vec2 n) {
 }  // namespace detail
 
 /// Sets the normals of flagged node f, by the segments of now and in their first position. A crack that only just
-/// reaches into sight of the node has its nearest segment's.
+/// reaches into sight of the node, or folds back so that its normals cancel, has its nearest segment's.
 inline void average_normals(const Lattice& lattice, const Cracks& cracks, CrackFields& fields, long f) {
   NodeCracks& node = fields.nodes[f];
   const double inv_h = 1 / lattice.h;
@@ -64,16 +64,14 @@ inline void average_normals(const Lattice& lattice, const Cracks& cracks, CrackF
       sum0 += weight * detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
     };
     const int first = fields.segment_start[c], last = fields.segment_start[c + 1];
-    double total = 0;
     for (int s = first; s < last; ++s) {
       const int k = fields.node_segment[s];
-      const double weight = detail::weight_of((cracks.plane[k] - place) * inv_h, (cracks.plane[k + 1] - place) * inv_h);
-      total += weight;
-      add(k, weight);
+      add(k, detail::weight_of((cracks.plane[k] - place) * inv_h, (cracks.plane[k + 1] - place) * inv_h));
     }
-    if (total == 0) {
+    if (const double least = 1e-9 * lattice.h; !(norm(sum) > least && norm(sum0) > least)) {
       const auto far = [&](int k) { return distance2(place, cracks.plane[k], cracks.plane[k + 1]); };
       const int* list = fields.node_segment.data();
+      sum = sum0 = {};
       add(*std::min_element(list + first, list + last, [&](int a, int b) { return far(a) < far(b); }), 1);
     }
     node.normal[m] = detail::unit(sum);

@@ -19,8 +19,8 @@ constexpr long points_of_task = 32;
 
 /// What the grid says of a crack point; mass 0 where that is nothing.
 struct Found {
-  PointMotion surface[2],
-      all;  ///< of the upper and the lower surface, and of all fields (motion with the centre of mass)
+  PointMotion surface[2];  ///< upper and lower
+  PointMotion all;         ///< of all fields (motion with the centre of mass)
 };
 
 /// How far a crack point moves in this step.

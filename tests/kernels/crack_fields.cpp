@@ -158,7 +158,7 @@ std::string compare(const Lattice& l, const Case& c, const Particles<double, 2>&
       if (length > 0.3 && norm(n.normal[m] - e.normal[m] * (1 / length)) > 0.06)
         return "normal of node " + std::to_string(n.node) + " off by " +
                std::to_string(norm(n.normal[m] - e.normal[m] * (1 / length)));
-      if (std::fabs(norm(n.normal[m]) - 1) > 1e-12 && length > 1e-9)
+      if (std::fabs(norm(n.normal[m]) - 1) > 1e-12)
         return "length of the normal of node " + std::to_string(n.node);
       if (m == 1 && f.candidate_start[f.node_index[n.node] + 1] - f.candidate_start[f.node_index[n.node]] < 2)
         return "no slots for the second crack of node " + std::to_string(n.node);
