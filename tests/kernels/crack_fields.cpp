@@ -261,9 +261,11 @@ TEST(CrackFields, NormalsFollowACurvedCrack) {
   // that to second order in the angle under which the cell is seen from the centre
   const Lattice l = unit_cells(24, 24);
   const Vec2 centre{12.1, 11.7};
-  std::vector<Vec2> particles(48L * 48);
-  for (size_t i = 0; i < particles.size(); ++i)
-    particles[i] = {0.5 * static_cast<double>(i % 48) + 0.25, 0.5 * static_cast<double>(i / 48) + 0.25};
+  std::vector<Vec2> particles;
+  particles.reserve(48L * 48);
+  for (int j = 0; j < 48; ++j)
+    for (int i = 0; i < 48; ++i)
+      particles.push_back({0.5 * i + 0.25, 0.5 * j + 0.25});
   const auto p = sorted_particles<UGimp>(l, particles, in_order(particles.size()));
   double worst[2];
   for (int k = 0; k < 2; ++k) {
