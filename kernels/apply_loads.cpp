@@ -97,7 +97,7 @@ void apply_loads(const Plan& plan, State<Real, 2>& s) {
         for (int j = 0; j < Shape::width; ++j)
           for (int m = 0; m < Shape::width; ++m) {
             const int node = (b.base + j) * l.nx + a.base + m;
-            Real* q = s.grid.q.data() + 4 * slots.of(node, field_of(word, j * Shape::width + m));
+            Real* q = s.grid.q.data() + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + m));
             q[2] += Real(force.x) * a.s[m] * b.s[j];
             q[3] += Real(force.y) * a.s[m] * b.s[j];
           }

@@ -89,20 +89,56 @@ void each_record(const CrackFields& fields, long first, long last, const F& f) {
 /// The fields of the particles of a marked tile.
 void set_fields(CrackFields& fields, long marked, long first, long last) {
   TileTrace& tile = fields.tiles[marked];
-  std::uint8_t* const crossing = fields.crossing.data() + CrackFields::block_of(first, marked);
+  std::uint16_t* const crossing = fields.crossing.data() + CrackFields::block_of(first, marked);
   std::fill(fields.fields.begin() + first, fields.fields.begin() + last, 0u);
-  std::fill(crossing, crossing + (last - first + exec::lanes - 1) / exec::lanes, std::uint8_t{0});
-  tile.warnings[0] = tile.warnings[1] = 0;
-  tile.changed = 0;
+  std::fill(crossing, crossing + (last - first + exec::lanes - 1) / exec::lanes, std::uint16_t{0});
+  tile.warnings[0] = tile.warnings[1] = tile.crossing = 0;
   each_record(fields, first, last, [&](long p, const CrossingRecord& r) {
     const std::uint8_t verdict = fields.verdict[r.entry];
     if (verdict < other_side) {
+      const long lane = p - first;
+      tile.crossing += fields.fields[p] == 0;
       fields.fields[p] |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * r.neighbour);
-      crossing[(p - first) / exec::lanes] = 1;
+      crossing[lane / exec::lanes] |= static_cast<std::uint16_t>(1u << (lane % exec::lanes));
     } else {
       ++tile.warnings[verdict == third_crack];
     }
   });
+}
+
+/// Makes room for the slots of the particles that cross.
+void make_room(int neighbours, CrackFields& fields) {
+  for (TileTrace& tile : fields.tiles)
+    if (tile.crossing > tile.room) {
+      tile.room = tile.crossing + tile.crossing / 4;
+      tile.slots = static_cast<int>(fields.slots_used);
+      fields.slots_used += long{neighbours} * tile.room;
+    }
+  if (fields.slots_used > fields.slots.size())
+    fields.slots.resize(fields.slots_used + fields.slots_used / 4);
+}
+
+/// Writes the slots of a tile's particles that cross.
+template <class Shape>
+void set_slots(const Lattice& lattice, CrackFields& fields, long marked, long first, long last) {
+  constexpr int N = Shape::width;
+  TileTrace& tile = fields.tiles[marked];
+  tile.changed = 0;
+  int* slot = fields.slots.data() + tile.slots;
+  for (long p = first; p < last; ++p) {
+    const long lane = (p - first) % exec::lanes, block = CrackFields::block_of(p, marked);
+    if (lane == 0)
+      fields.block_slots[block] = static_cast<int>(slot - fields.slots.data());
+    const std::uint32_t word = fields.fields[p];
+    if (word == 0)
+      continue;
+    const CrossingRecord& any = fields.records[fields.memory[p].first];
+    const int corner = fields.nodes[any.node].node - any.neighbour / N * lattice.nx - any.neighbour % N;
+    for (int n = 0; n < N * N; ++n) {
+      const int node = corner + n / N * lattice.nx + n % N, field = CrackFields::field_of(word, n);
+      *slot++ = field == 0 ? node : lattice.nodes() + fields.extra[node] + field - 1;
+    }
+  }
 }
 
 /// The node of the first warning of a kind, by particle number and neighbour.
@@ -144,6 +180,12 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
     if (fields.tiles[m].changed)
       set_fields(fields, m, start[0], start[1]);
+  });
+  make_room(Shape::width * Shape::width, fields);
+  exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
+    const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
+    if (fields.tiles[m].changed)
+      set_slots<Shape>(lattice, fields, m, start[0], start[1]);
   });
   long* const total[2] = {&fields.warning_both_sides, &fields.warning_third_crack};
   for (int kind = 0; kind < 2; ++kind) {

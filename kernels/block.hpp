@@ -3,6 +3,8 @@
 //
 // Shape functions are recomputed in every pass: storing 27 numbers per particle costs more than it saves.
 #pragma once
+#include <type_traits>
+
 #include "core/exec/atomic.hpp"
 #include "core/math/quad.hpp"
 #include "core/math/shape.hpp"
@@ -73,23 +75,15 @@ struct NodeTarget {
   RIVEN_INLINE int at(int i, int j) const { return (j - offset_y) * stride + i - offset_x; }
 };
 
-/// The slots behind the plain grid, and the fields that lead to them. Without cracks `word` is null.
-template <class Real>
-struct ExtraSlots {
-  const std::uint32_t* word = nullptr;          ///< CrackFields::fields
-  const int* tile_marked = nullptr;             ///< CrackFields::tile_marked
-  const std::uint8_t* block_crosses = nullptr;  ///< CrackFields::crossing
-  const int* extra = nullptr;
-  int nodes = 0;
-  int nx = 0;
-  bool atomic = false;  ///< slots may be written by several tiles at once
-  RIVEN_INLINE int slot(int node, int field) const { return nodes + extra[node] + field - 1; }
+/// How particles that see nodes across cracks find their slots. Without cracks `tile_marked` is null.
+struct CrossingSlots {
+  const int* tile_marked = nullptr;         ///< CrackFields::tile_marked
+  const std::uint16_t* crossing = nullptr;  ///< CrackFields::crossing
+  const int* block_slots = nullptr;         ///< CrackFields::block_slots
+  const int* slots = nullptr;               ///< CrackFields::slots
+  int nodes = 0;                            ///< slots from here on lie behind the plain grid
+  bool atomic = false;                      ///< those may be written by several tiles at once
 };
-
-inline constexpr int field_bits = 2;
-RIVEN_INLINE int field_of(std::uint32_t word, int neighbour) {
-  return (word >> (field_bits * neighbour)) & 3u;
-}
 
 template <class Real>
 RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
@@ -140,49 +134,14 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
   }
 }
 
-/// Number of the lowest bit of a word that is not 0.
-RIVEN_INLINE int lowest_bit(std::uint32_t word) {
-#if defined(__CUDA_ARCH__)
-  return __ffs(static_cast<int>(word)) - 1;
-#else
-  return __builtin_ctz(word);
-#endif
-}
-
-/// f(n, slot) for each of a particle's nodes that it sees across cracks.
-template <class Real, class Shape, class F>
-RIVEN_INLINE void each_crossing(const Block<Real, Shape>& w, int k, std::uint32_t word, const ExtraSlots<Real>& extra,
-                                const F& f) {
-  constexpr int N = Shape::width;
-  const int first = w.iy[k] * extra.nx + w.ix[k];
-  while (word != 0) {
-    const int n = lowest_bit(word) / field_bits;
-    f(n, extra.slot(first + n / N * extra.nx + n % N, field_of(word, n)));
-    word &= ~(3u << (field_bits * n));
-  }
-}
-
-/// The same as `scatter` for a particle that sees some nodes across cracks: those go to the extra slots of `grid_mass`,
-/// `grid_q`.
+/// The same as `scatter` for a particle that sees some nodes across cracks: slots behind the plain grid are those of
+/// `grid_mass`, `grid_q`.
 template <bool Mass, bool Gradient, class Real, class Shape>
-RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
-                                  const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to,
-                                  std::uint32_t word, const ExtraSlots<Real>& extra, Real* grid_mass, Real* grid_q) {
+RIVEN_OUTLINE void scatter_slots(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
+                                 const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
+                                 const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
   constexpr int N = Shape::width;
-  Real *q[N * N], *m[N * N];
   const int first = to.at(w.ix[k], w.iy[k]);
-#pragma GCC unroll 9
-  for (int n = 0; n < N * N; ++n) {
-    const long slot = first + n / N * long{to.stride} + n % N;
-    q[n] = to.q + 4 * slot;
-    m[n] = to.mass + slot;
-  }
-  Quad<Real> apart[N * N];  // where other tiles may write to the slots, too
-  Real apart_mass[N * N];
-  each_crossing(w, k, word, extra, [&](int n, int slot) {
-    q[n] = extra.atomic ? reinterpret_cast<Real*>(&(apart[n] = Quad<Real>{})) : grid_q + 4L * slot;
-    m[n] = extra.atomic ? &(apart_mass[n] = Real(0)) : grid_mass + slot;
-  });
 #pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
     Quad<Real> row = w.sy[j][k] * A;
@@ -193,21 +152,25 @@ RIVEN_OUTLINE void scatter_fields(const Block<Real, Shape>& w, int k, Real mass,
     }
 #pragma GCC unroll 3
     for (int i = 0; i < N; ++i) {
+      const int slot = slots[j * N + i];
+      const bool behind = slot >= extra.nodes;
+      Quad<Real> part = w.sx[i][k] * row;
       if constexpr (Gradient)
-        quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row + w.gx[i][k] * across;
-      else
-        quad_at<Real>(q[j * N + i]) += w.sx[i][k] * row;
+        part += w.gx[i][k] * across;
+      const Real m = Mass ? mass * w.sx[i][k] * w.sy[j][k] : Real(0);
+      if (behind & extra.atomic) {
+        for (int c = 0; c < 4; ++c)
+          exec::atomic_add(grid_q[4L * slot + c], part[c]);
+        if constexpr (Mass)
+          exec::atomic_add(grid_mass[slot], m);
+        continue;
+      }
+      const long at = behind ? slot : first + j * to.stride + i;
+      quad_at<Real>((behind ? grid_q : to.q) + 4 * at) += part;
       if constexpr (Mass)
-        *m[j * N + i] += mass * w.sx[i][k] * w.sy[j][k];
+        (behind ? grid_mass : to.mass)[at] += m;
     }
   }
-  if (extra.atomic)
-    each_crossing(w, k, word, extra, [&](int n, int slot) {
-      for (int c = 0; c < 4; ++c)
-        exec::atomic_add(grid_q[4L * slot + c], apart[n][c]);
-      if constexpr (Mass)
-        exec::atomic_add(grid_mass[slot], apart_mass[n]);
-    });
 }
 
 /// Four node values at a particle, and their gradients.
@@ -243,22 +206,15 @@ RIVEN_INLINE Gathered<Real> gather(const Block<Real, Shape>& w, int k, const Rea
 
 /// The same for a particle that sees some nodes across cracks.
 template <bool Gradient, class Real, class Shape>
-RIVEN_OUTLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, const Real* q, std::uint32_t word,
-                                           const ExtraSlots<Real>& extra) {
+RIVEN_INLINE Gathered<Real> gather_slots(const Block<Real, Shape>& w, int k, const Real* q, const int* slots) {
   constexpr int N = Shape::width;
-  const Real* from[N * N];
-  const Real* first = q + 4L * (static_cast<long>(w.iy[k]) * extra.nx + w.ix[k]);
-#pragma GCC unroll 9
-  for (int n = 0; n < N * N; ++n)
-    from[n] = first + 4L * (n / N * long{extra.nx} + n % N);
-  each_crossing(w, k, word, extra, [&](int n, int slot) { from[n] = q + 4L * slot; });
   Gathered<Real> out{};
 #pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
     Quad<Real> s{}, d{};
 #pragma GCC unroll 3
     for (int i = 0; i < N; ++i) {
-      const Quad<Real>& n = quad_at<Real>(from[j * N + i]);
+      const Quad<Real>& n = quad_at<Real>(q + 4L * slots[j * N + i]);
       s += w.sx[i][k] * n;
       if constexpr (Gradient)
         d += w.gx[i][k] * n;
@@ -270,6 +226,15 @@ RIVEN_OUTLINE Gathered<Real> gather_fields(const Block<Real, Shape>& w, int k, c
     }
   }
   return out;
+}
+
+/// The one or the other, by what each_particle hands over.
+template <bool Gradient, class Real, class Shape, class Slots>
+RIVEN_INLINE Gathered<Real> gather_from(const Block<Real, Shape>& w, int k, const Real* q, int nx, Slots slots) {
+  if constexpr (std::is_pointer_v<Slots>)
+    return gather_slots<Gradient>(w, k, q, slots);
+  else
+    return gather<Gradient>(w, k, q, nx);
 }
 
 }  // namespace riven

@@ -1,6 +1,7 @@
 #include "kernels/contact_sums.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/error.hpp"
 #include "core/math/shape.hpp"
@@ -51,21 +52,6 @@ RIVEN_INLINE void add_parts(const Block<Real, Shape>& w, int k, const ParticlePa
         to.volume[slot_of(j * N + i)] += p.area * double(w.sx[i][k]) * double(w.sy[j][k]);
 }
 
-template <class Real, class Shape>
-RIVEN_INLINE void add_particle(const Block<Real, Shape>& w, int k, const ParticleParts& p, const Lattice& lattice,
-                               std::uint32_t word, const ExtraSlots<Real>& extra, const SlotSums& to) {
-  constexpr int N = Shape::width;
-  const long first = long{w.iy[k]} * lattice.nx + w.ix[k];
-  const auto plain = [&](int n) { return first + long{n / N} * lattice.nx + n % N; };
-  if (word == 0)
-    return add_parts(w, k, p, lattice.h, to, plain);
-  long slot[N * N];
-  for (int n = 0; n < N * N; ++n)
-    slot[n] = plain(n);
-  each_crossing(w, k, word, extra, [&](int n, int across) { slot[n] = across; });
-  add_parts(w, k, p, lattice.h, to, [&](int n) { return slot[n]; });
-}
-
 template <class Shape, class Real>
 void sum_particles(const exec::Space& space, const Particles<Real, 2>& particles,
                    const exec::Array<DomainSetting<Real, 2>>& domains, const exec::Array<double>& specific_area,
@@ -85,13 +71,15 @@ void sum_particles(const exec::Space& space, const Particles<Real, 2>& particles
                            {domains.data(), particles.body.data(), domains.size() == 1}};
   const std::uint8_t *body = particles.body.data(), *cell_held = fields.cell_held.data();
   const double* specific = specific_area.data();
-  const ExtraSlots<Real> extra = extra_slots<Real>(fields, lattice, false);
-  const int *start = tiles.start.data(), *marked = fields.tile_marked.data();
+  const CrossingSlots extra = crossing_slots(fields, lattice);
+  const int* start = tiles.start.data();
 
   const auto tile_body = [=](int tile) {
+    constexpr int N = Shape::width;
     Block<Real, Shape> w;
     alignas(64) int cell[L];
-    for (int first = start[tile]; first < start[tile + 1]; first += L) {
+    long block = CrackFields::block_of(start[tile], extra.tile_marked[tile] - 1);
+    for (int first = start[tile]; first < start[tile + 1]; first += L, ++block) {
       exec::for_lanes(L, [&](int k) RIVEN_LANE {
         const int i = Shape::cell((x[first + k] - at.origin_x) * at.inv_h);
         const int j = Shape::cell((y[first + k] - at.origin_y) * at.inv_h);
@@ -103,20 +91,29 @@ void sum_particles(const exec::Space& space, const Particles<Real, 2>& particles
       if (near == 0)
         continue;
       w.weigh(at, first);
+      const unsigned crossing = extra.crossing[block];
+      const int* slots = extra.slots + extra.block_slots[block];
       for (; near != 0; near &= near - 1) {
-        const int k = lowest_bit(near), p = first + k;
+        const int k = std::countr_zero(near), p = first + k;
         const double area = to.volume ? mass[p] * specific[body[p]] * area_ratio(F, J, p) : 0;
         const Vec2 node = lattice.position(w.ix[k], w.iy[k]);
         const Quad<double> places =
             to.place ? Quad<double>{x[p] - node.x, y[p] - node.y, X[p] - node.x, Y[p] - node.y} : Quad<double>{};
-        add_particle(w, k, {mass[p], area, places}, lattice, extra.word[p], extra, to);
+        const ParticleParts parts{mass[p], area, places};
+        const long corner = long{w.iy[k]} * lattice.nx + w.ix[k];
+        if (crossing >> k & 1u) {
+          add_parts(w, k, parts, lattice.h, to, [&](int n) RIVEN_LANE { return slots[n]; });
+          slots += N * N;  // who crosses is near
+        } else {
+          add_parts(w, k, parts, lattice.h, to, [&](int n) RIVEN_LANE { return corner + n / N * lattice.nx + n % N; });
+        }
       }
     }
   };
   for (int colour = 0; colour < 4; ++colour) {
     const int* some = tiles.by_colour.data() + tiles.colour_start[colour];
     exec::launch(space, tiles.colour_start[colour + 1] - tiles.colour_start[colour], [=](long t) {
-      if (marked[some[t]])
+      if (extra.tile_marked[some[t]])
         tile_body(some[t]);
     });
   }

@@ -27,13 +27,10 @@ struct MotionLanes {
   alignas(64) Real vx[exec::lanes], vy[exec::lanes], ax[exec::lanes], ay[exec::lanes], hx[exec::lanes], hy[exec::lanes];
 };
 
-template <bool Gradient, bool High, class Real, class Shape>
+template <bool Gradient, bool High, class Real, class Shape, class Slots>
 RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
-                                std::uint32_t word, const ExtraSlots<Real>& extra, bool high_gradient,
-                                MotionLanes<Real>& m, GradientLanes<Real>& g) {
-  const auto read = [&](const Real* from) {
-    return word ? gather_fields<Gradient>(w, k, from, word, extra) : gather<Gradient>(w, k, from, nx);
-  };
+                                Slots slots, bool high_gradient, MotionLanes<Real>& m, GradientLanes<Real>& g) {
+  const auto read = [&](const Real* from) RIVEN_LANE { return gather_from<Gradient>(w, k, from, nx, slots); };
   const Gathered<Real> a = read(q);
   m.vx[k] = a.value[0];
   m.vy[k] = a.value[1];
@@ -87,13 +84,13 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, false);
+  const CrossingSlots extra = crossing_slots(s);
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
   const WatchTiles<Real, true, Stress> see(s.watch);
   each_tile(space, "grid to particle", s.particles.tiles, extra, see,
-            [=](auto crossing, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
+            [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               MotionLanes<Real> motion;
               GradientLanes<Real> gradient;
@@ -101,8 +98,8 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 w.weigh(at, first);
-                each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-                  gather_motion<Stress, High>(w, k, q, high, nx, word, extra, high_gradient, motion, gradient);
+                each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                  gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
                 });
                 update_motion(p, first, count, motion, n, dx, dy, seen);
                 exec::for_lanes(count, [&](int k) RIVEN_LANE {
@@ -126,12 +123,12 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, true, false> see(s.watch);
   scatter_tiles<false>(space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
                        static_cast<Real*>(nullptr), again, extra, see,
-                       [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen)
+                       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen)
                            RIVEN_LANE {
                              Block<Real, Shape> w;
                              MotionLanes<Real> motion;
@@ -139,16 +136,16 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
                              for (long first = begin; first < end; first += L) {
                                const int count = static_cast<int>(std::min<long>(L, end - first));
                                w.weigh(at, first);
-                               each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-                                 gather_motion<false, High>(w, k, q, high, nx, word, extra, false, motion, none);
+                               each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                                 gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
                                });
                                update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
-                               each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                               each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
                                  const long i = first + k;
                                  const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
-                                 if (word != 0)
-                                   scatter_fields<false, false>(w, k, Real(0), A, zero, zero, to, word, extra,
-                                                                static_cast<Real*>(nullptr), again);
+                                 if constexpr (std::is_pointer_v<decltype(slots)>)
+                                   scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra,
+                                                               static_cast<Real*>(nullptr), again);
                                  else
                                    scatter<false, false>(w, k, Real(0), A, zero, zero, to);
                                });

@@ -22,21 +22,20 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const int nx = s.grid.lattice.nx;
   const Real* mass = s.particles.mass.data();
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   scatter_tiles<false>(space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice,
                        static_cast<Real*>(nullptr), next, extra, WatchNothing{},
-                       [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                          Block<Real, Shape> w;
                          for (long first = begin; first < end; first += L) {
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            w.weigh(at, first);
-                           each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-                             const Quad<Real> v = word != 0 ? gather_fields<false>(w, k, term, word, extra).value
-                                                            : gather<false>(w, k, term, nx).value;
+                           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                             const Quad<Real> v = gather_from<false>(w, k, term, nx, slots).value;
                              const Quad<Real> mv = mass[first + k] * v, zero{};
-                             if (word != 0)
-                               scatter_fields<false, false>(w, k, Real(0), mv, zero, zero, to, word, extra,
-                                                            static_cast<Real*>(nullptr), next);
+                             if constexpr (std::is_pointer_v<decltype(slots)>)
+                               scatter_slots<false, false>(w, k, Real(0), mv, zero, zero, to, slots, extra,
+                                                           static_cast<Real*>(nullptr), next);
                              else
                                scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
                            });

@@ -32,7 +32,6 @@ struct Moves {
 
 template <class Shape, class Real>
 struct Extrapolation {
-  using Ordinary = std::conditional_t<std::is_same_v<Shape, BSpline>, BSpline, Linear>;
   static constexpr int width = AxisWeights::width;
 
   const Grid<Real>& grid;
@@ -43,23 +42,23 @@ struct Extrapolation {
   /// The nodes around a point.
   struct Around {
     AxisWeights x, y;
-    bool same_nodes(const Around& o) const { return x.base == o.x.base && y.base == o.y.base; }
   };
 
-  AxisWeights along(double X, int axis) const {
+  RIVEN_INLINE AxisWeights along(double X, int axis) const {
     const Lattice& l = grid.lattice;
     const double nearest = std::floor(X + 0.5), r = X - nearest;
     const double below = 0.5 - r, above = 0.5 + r;
     AxisWeights w{static_cast<int>(nearest) - 1,
                   {l.h * (-1 - r), l.h * -r, l.h * (1 - r)},
-                  {},
+                  {std::max(0., -r), 1 - std::fabs(r), std::max(0., r)},
                   {0.5 * below * below, 0.75 - r * r, 0.5 * above * above}};
-    const auto ordinary = Ordinary::axis(X, AxisSetting<double>{0, 0, l.wall_lower[axis], l.wall_upper[axis]});
-    for (int i = 0; i < Ordinary::width; ++i)
-      w.near[ordinary.base + i - w.base] = ordinary.s[i];
+    if constexpr (std::is_same_v<Shape, BSpline>) {
+      const auto near = BSpline::axis(X, AxisSetting<double>{0, 0, l.wall_lower[axis], l.wall_upper[axis]});
+      std::copy(near.s, near.s + width, w.near);
+    }
     return w;
   }
-  Around around(Vec2 x) const {
+  RIVEN_INLINE Around around(Vec2 x) const {
     const Vec2 X = (x - grid.lattice.origin) * inv_h;
     return {along(X.x, 0), along(X.y, 1)};
   }
@@ -67,30 +66,29 @@ struct Extrapolation {
     return a.x.base >= 0 && a.y.base >= 0 && a.x.base + width <= grid.lattice.nx && a.y.base + width <= grid.lattice.ny;
   }
 
-  RIVEN_INLINE void add(RowSums& row, const AxisWeights& x, int i, int node, int field) const {
-    const long slot = field == 0 ? node : long{grid.lattice.nodes()} + fields.extra[node] + field - 1;
-    const double mass = grid.mass[slot];
+  RIVEN_INLINE void add(RowSums& row, const AxisWeights& x, int i, long slot, double mass) const {
     const Real* q = grid.q.data() + 4 * slot;
-    if (mass > 0)
-      row.add(mass, Quad<double>{double(q[0]), double(q[1]), double(q[2]), double(q[3])}, x, i);
+    row.add(mass, Quad<double>{double(q[0]), double(q[1]), double(q[2]), double(q[3])}, x, i);
   }
 
-  /// Adds what the surfaces s[first] to s[last - 1] of a point see.
-  RIVEN_INLINE void add_surfaces(const SurfacePoint* s, const Around* a, int first, int last, MotionSums* sums) const {
+  /// What the surfaces s[first] to s[last - 1] of a point find on the nodes around them.
+  RIVEN_INLINE void sum_surfaces(const SurfacePoint* s, const Around* a, int first, int last, MotionSums* sums) const {
     const Lattice& l = grid.lattice;
-    for (int j = 0; j < width; ++j) {
-      RowSums row[2];
-      for (int i = 0; i < width; ++i) {
-        const int x = a[first].x.base + i, y = a[first].y.base + j, node = y * l.nx + x;
-        int field[2];
-        fields_of_surfaces(view, s, first, last, node, l.position(x, y), field);
-        for (int k = first; k < last; ++k)
-          if (field[k] >= 0)
-            add(row[k], a[k].x, i, node, field[k]);
-      }
-      for (int k = first; k < last; ++k)
-        sums[k].add(row[k], a[k].y, j);
+    int slot[width * width][2];
+    for (int n = 0; n < width * width; ++n) {
+      const int i = a[first].x.base + n % width, j = a[first].y.base + n / width;
+      slots_of_surfaces(view, s, j * l.nx + i, l.position(i, j), slot[n]);
     }
+    for (int k = first; k < last; ++k)
+      for (int j = 0; j < width; ++j) {
+        RowSums row;
+#pragma GCC unroll 3
+        for (int i = 0; i < width; ++i) {
+          const int at = slot[j * width + i][k], there = std::max(at, 0);
+          add(row, a[k].x, i, there, at < 0 ? 0. : double(grid.mass[there]));
+        }
+        sums[k].add(row, a[k].y, j);
+      }
   }
 
   /// Motions of the upper and the lower surface of a point.
@@ -105,11 +103,11 @@ struct Extrapolation {
       s[k] = surface_point(view, point, k == 0 ? Side::above : Side::below, x[k], j * l.nx + i);
     }
     MotionSums sums[2];
-    if (a[0].same_nodes(a[1])) {
-      add_surfaces(s, a, 0, 2, sums);
+    if (a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base) {
+      sum_surfaces(s, a, 0, 2, sums);
     } else {
-      add_surfaces(s, a, 0, 1, sums);
-      add_surfaces(s, a, 1, 2, sums);
+      sum_surfaces(s, a, 0, 1, sums);
+      sum_surfaces(s, a, 1, 2, sums);
     }
     for (int k = 0; k < 2; ++k)
       motion[k] = fit_motion(sums[k], l.h, dt);
@@ -124,9 +122,12 @@ struct Extrapolation {
       RowSums row;
       for (int i = 0; i < width; ++i) {
         const int node = (a.y.base + j) * grid.lattice.nx + a.x.base + i, f = fields.node_index[node];
-        const int held = f < 0 || fields.held[f] == 0 ? 0 : fields.held[f] == 1 ? 1 : 3;
-        for (int field = 0; field <= held; ++field)
-          add(row, a.x, i, node, field);
+        const int held = f < 0 ? 0 : fields.held[f];
+        add(row, a.x, i, node, grid.mass[node]);
+        for (int field = 0; field < (held < 2 ? held : 3); ++field) {
+          const long slot = long{grid.lattice.nodes()} + fields.extra[node] + field;
+          add(row, a.x, i, slot, grid.mass[slot]);
+        }
       }
       sums.add(row, a.y, j);
     }
@@ -234,8 +235,9 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
     const long first = task * points_of_task, end = std::min<long>(cracks.points(), first + points_of_task);
     for (long k = first; k < end; ++k) {
       Found& f = found[static_cast<size_t>(k)];
+      const CrackPoint point = crack_point(from.view, static_cast<int>(k));
       const Vec2 surface[2] = {cracks.upper[k], cracks.lower[k]};
-      from.of_surfaces(crack_point(from.view, static_cast<int>(k)), surface, f.surface);
+      from.of_surfaces(point, surface, f.surface);
       if (rules.motion == CrackMotion::center_of_mass)
         f.all = from.of_all_fields(cracks.plane[k]);
     }

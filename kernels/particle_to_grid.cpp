@@ -17,11 +17,11 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
   Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const Real bx = Real(gravity.x), by = Real(gravity.y);
   scatter_tiles<true>(space, "particle to grid", plan.scatter, s.particles.tiles, s.grid.lattice, mass, q, extra,
                       WatchNothing{},
-                      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                         Block<Real, Shape> w;
                         alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
                         for (long first = begin; first < end; first += L) {
@@ -37,15 +37,15 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               txy[k] = -m[k] * p.sxy[first + k];
                             }
                           });
-                          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+                          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
                             Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
                             if constexpr (Forces) {
                               A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
                               B = Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
                               C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
                             }
-                            if (word != 0)
-                              scatter_fields<true, Forces>(w, k, m[k], A, B, C, to, word, extra, mass, q);
+                            if constexpr (std::is_pointer_v<decltype(slots)>)
+                              scatter_slots<true, Forces>(w, k, m[k], A, B, C, to, slots, extra, mass, q);
                             else
                               scatter<true, Forces>(w, k, m[k], A, B, C, to);
                           });

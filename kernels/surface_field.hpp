@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/fracture/crossing.hpp"
 #include "core/state/crack_fields.hpp"
@@ -39,29 +40,33 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
 struct CrackPoint {
   int crack;
   Vec2 x;
-  Vec2 left;      ///< normal, towards above
-  Vec2 beyond;    ///< direction in which the crack ends here, 0 unless the point is a tip
-  bool tip;       ///< a tip of the crack in reach of the nodes around the point
-  bool straight;  ///< the crack leaves the line along the point by little, as far as these nodes reach
+  Vec2 left;    ///< normal, towards above
+  Vec2 beyond;  ///< direction in which the crack ends here, 0 unless the point is a tip
+  bool tip;     ///< a tip of the crack in reach of the nodes around the point
+  double off;   ///< a node further from the line along the point is to one side of the crack; infinite if it turns
 };
 
 inline CrackPoint crack_point(const SurfaceView& view, int point) {
   const int crack = view.crack[point], first = view.start[crack], last = view.start[crack + 1] - 1;
   const Vec2 x = view.plane[point];
   const Vec2 along = view.plane[point < last ? point + 1 : point] - view.plane[point > first ? point - 1 : point];
-  const double length = norm(along), reach = 1.6 * view.lattice.h, bend = 0.25 * view.lattice.h;
+  const double length = norm(along), h = view.lattice.h, reach = 1.6 * h;
   const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
-  CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, length > 0};
+  CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, 0};
+  double bend = 0, back = length > 0 ? 0 : -1;
   for (int step : {-1, 1}) {
     int k = point + step;
     for (; k >= first && k <= last; k += step) {
       const Vec2 r = view.plane[k] - x;
       if (std::fabs(r.x) > reach || std::fabs(r.y) > reach)
         break;
-      p.straight = p.straight && std::fabs(dot(r, p.left)) < bend && step * dot(r, t) >= 0;
+      bend = std::max(bend, std::fabs(dot(r, p.left)));
+      back = std::min(back, step * dot(r, t));
     }
     p.tip = p.tip || k < first || k > last;
   }
+  p.off =
+      back >= 0 && bend < 0.25 * h ? std::min(0.3 * h, 4 * bend + 0.02 * h) : std::numeric_limits<double>::infinity();
   return p;
 }
 
@@ -71,12 +76,17 @@ struct SurfacePoint {
   Side side;
   Vec2 x;           ///< where the surface is now
   int first, last;  ///< part of cell_segment that its cell sees
+  bool alone;       ///< no other crack is among these
 };
 
 /// `cell`: that of x, by the shape function of the hash.
 RIVEN_INLINE SurfacePoint surface_point(const SurfaceView& view, const CrackPoint& own, Side side, Vec2 x, int cell) {
   const int seen = view.cell_index[cell];
-  return {own, side, x, seen < 0 ? 0 : view.cell_start[seen], seen < 0 ? 0 : view.cell_start[seen + 1]};
+  if (seen < 0)
+    return {own, side, x, 0, 0, true};
+  const int first = view.cell_start[seen], last = view.cell_start[seen + 1];
+  const auto is_own = [&](int at) { return view.crack[view.cell_segment[at]] == own.crack; };
+  return {own, side, x, first, last, first == last || (is_own(first) && is_own(last - 1))};
 }
 
 namespace detail {
@@ -118,7 +128,7 @@ RIVEN_INLINE SegmentRange segments_of(const SurfaceView& view, const SurfacePoin
 RIVEN_INLINE bool crosses_own(const SurfaceView& view, const SurfacePoint& s, Vec2 n) {
   const Vec2 r = n - s.own.x;
   const double off = dot(r, s.own.left), h = view.lattice.h;
-  if (s.own.straight && std::fabs(off) > 0.3 * h)
+  if (std::fabs(off) > s.own.off)
     return (off > 0) != (s.side == Side::above) && !(dot(r, s.own.beyond) > 0);
   const SegmentRange own = segments_of(view, s, s.own.crack);
   const Vec2 from = s.own.x + ((s.side == Side::above ? 1e-3 : -1e-3) * h) * s.own.left;
@@ -148,36 +158,52 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s,
 
 }  // namespace detail
 
-/// The fields of `node`, which lies at `place`, for the surfaces s[first] to s[last - 1] of one crack point, or -1
-/// where the node has no such field. A crack is crossed where the line from the surface to the node crosses it from the
-/// side that the node holds. Along the middle of its own crack that is where the node has crossings from this surface's
-/// side; near a tip the line may pass beyond, whatever the node holds. The field of a crack that the line crosses and
-/// the node does not hold is empty; only a crack beyond the two that a node can hold is ignored, as it is for
-/// particles.
-RIVEN_INLINE void fields_of_surfaces(const SurfaceView& view, const SurfacePoint* s, int first, int last, int node,
-                                     Vec2 place, int* field) {
-  field[0] = field[1] = 0;
+/// The field of a node, which lies at `place`, for a surface, or -1 where the node has no such field. A crack is
+/// crossed where the line from the surface to the node crosses it from the side that the node holds. Along the middle
+/// of its own crack that is where the node has crossings from this surface's side; near a tip the line may pass beyond,
+/// whatever the node holds. The field of a crack that the line crosses and the node does not hold is empty; only a
+/// crack beyond the two that a node can hold is ignored, as it is for particles.
+inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint& s, const NodeCracks& held,
+                                     Vec2 place) {
+  const int m = held.crack[1] == s.own.crack;
+  const bool holds = held.crack[m] == s.own.crack;
+  int field = holds && held.side[m] == s.side ? 1 << m : 0;
+  if ((!holds || (s.own.tip && field != 0)) && !detail::crosses_own(view, s, place))
+    field = 0;
+  else if (!holds)
+    field = held.crack[1] < 0 ? -1 : 0;
+  return field < 0 ? field : detail::cross_others(view, s, place, held, field);
+}
+
+/// The slots of a node for both surfaces of a point, or -1. Where the line along the point tells on which side of the
+/// crack the node is, and no other crack is in sight, this is the same as above without branches: what comes next to
+/// what around a crack is beyond prediction.
+RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, const SurfacePoint* s, int node, Vec2 place, int* slot) {
+  slot[0] = slot[1] = node;
   const int f = view.node_index[node];
   if (f < 0)
     return;
   const NodeCracks& held = view.nodes[f];
-  const CrackPoint& own = s[first].own;
-  const int m = held.crack[1] == own.crack;
+  const CrackPoint& own = s[0].own;
+  const int m = held.crack[1] == own.crack, extra = view.lattice.nodes() + held.extra - 1;
   const bool holds = held.crack[m] == own.crack;
-  for (int k = first; k < last; ++k)
-    field[k] = holds && held.side[m] == s[k].side ? 1 << m : 0;
-  if (!holds || own.tip)
-    for (int k = first; k < last; ++k) {
-      if (holds && field[k] == 0)
-        continue;
-      const bool crosses = detail::crosses_own(view, s[k], place);
-      field[k] = !crosses ? 0 : holds ? field[k] : held.crack[1] < 0 ? -1 : 0;
+  const Vec2 r = place - own.x;
+  const double off = dot(r, own.left);
+  const bool unclear = (!holds | own.tip) & !(std::fabs(off) > own.off);
+  if (unclear | (held.sees != own.crack && !(s[0].alone & s[1].alone))) {
+    for (int k = 0; k < 2; ++k) {
+      const int field = field_of_surface(view, s[k], held, place);
+      slot[k] = field == 0 ? node : field < 0 ? -1 : extra + field;
     }
-  if (held.sees == own.crack)
     return;
-  for (int k = first; k < last; ++k)
-    if (field[k] >= 0)
-      field[k] = detail::cross_others(view, s[k], place, held, field[k]);
+  }
+  const bool beyond = dot(r, own.beyond) > 0;
+  for (int k = 0; k < 2; ++k) {
+    const bool crosses = ((off > 0) != (s[k].side == Side::above)) & !beyond;
+    const bool has_field = holds & (held.side[m] == s[k].side) & (crosses | !own.tip);
+    const bool empty = !holds & crosses & (held.crack[1] < 0);
+    slot[k] = has_field ? extra + (1 << m) : empty ? -1 : node;
+  }
 }
 
 }  // namespace riven

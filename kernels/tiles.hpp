@@ -20,43 +20,78 @@ namespace riven {
 inline constexpr int tile_margin = 2;
 inline constexpr int tile_reach = Lattice::tile + 2 * tile_margin;
 
+/// A stretch of blocks in which no particle sees a node across a crack.
+struct Uncrossed {
+  static constexpr bool value = false;
+};
+
+/// A stretch of blocks in which some do.
+struct Crossed {
+  static constexpr bool value = true;
+  long begin;                     ///< first particle
+  const std::uint16_t* crossing;  ///< of the stretch's first block, as in CrossingSlots
+  const int* block_slots;
+  const int* slots;
+};
+
+/// body(k, slots) for the particles of a block: where all nodes of a particle stand that sees one of them across a
+/// crack, else a null pointer by its type, so that the loop is compiled without the way out to the others.
+template <class Shape, class Stretch, class Body>
+RIVEN_INLINE void each_particle(const Stretch& stretch, long first, int count, const Body& body) {
+  if constexpr (Stretch::value) {
+    const long block = (first - stretch.begin) / exec::lanes;
+    const unsigned crossing = stretch.crossing[block];
+    const int* slots = stretch.slots + stretch.block_slots[block];
+    for (int k = 0; k < count; ++k)
+      if (crossing >> k & 1u) {
+        body(k, slots);
+        slots += Shape::width * Shape::width;
+      } else {
+        body(k, nullptr);
+      }
+  } else {
+    for (int k = 0; k < count; ++k)
+      body(k, nullptr);
+  }
+}
+
 namespace detail {
 
 /// Compiled once for each body and kind of stretch, whoever calls it.
-template <class Body, class Crossing, class... More>
-RIVEN_ONCE void run_stretch(const Body& body, Crossing crossing, long first, long last, More&... more) {
+template <class Body, class Stretch, class... More>
+RIVEN_ONCE void run_stretch(const Body& body, Stretch stretch, long first, long last, More&... more) {
   const Body own = body;  // what a body writes cannot change what it captured
-  own(crossing, first, last, more...);
+  own(stretch, first, last, more...);
 }
 
-/// body(crossing, first, last, more...) for a tile, cut into stretches of blocks in which no particle sees a node
-/// across a crack (std::false_type) and of blocks in which some do (std::true_type).
-template <class Real, class Body, class... More>
-RIVEN_INLINE void each_stretch(const ExtraSlots<Real>& e, int tile, long first, long last, const Body& body,
+/// body(stretch, first, last, more...) for a tile, cut into stretches of blocks.
+template <class Body, class... More>
+RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, long last, const Body& body,
                                More&... more) {
-  if (!e.word || e.tile_marked[tile] == 0)
-    return run_stretch(body, std::false_type{}, first, last, more...);
-  const std::uint8_t* crosses = e.block_crosses + CrackFields::block_of(first, e.tile_marked[tile] - 1);
+  if (!e.tile_marked || e.tile_marked[tile] == 0)
+    return run_stretch(body, Uncrossed{}, first, last, more...);
+  long block = CrackFields::block_of(first, e.tile_marked[tile] - 1);
   while (first < last) {
-    const bool crossing = *crosses;
+    const bool crossed = e.crossing[block] != 0;
+    const Crossed stretch{first, e.crossing + block, e.block_slots + block, e.slots};
     long end = first;
-    for (; end < last && *crosses == crossing; ++crosses)
+    for (; end < last && (e.crossing[block] != 0) == crossed; ++block)
       end += exec::lanes;
     end = std::min(end, last);
-    if (crossing)
-      run_stretch(body, std::true_type{}, first, end, more...);
+    if (crossed)
+      run_stretch(body, stretch, first, end, more...);
     else
-      run_stretch(body, std::false_type{}, first, end, more...);
+      run_stretch(body, Uncrossed{}, first, end, more...);
     first = end;
   }
 }
 
 }  // namespace detail
 
-/// body(crossing, first, last, seen) for the stretches of every tile that holds particles; bodies only read the grid.
+/// body(stretch, first, last, seen) for the stretches of every tile that holds particles; bodies only read the grid.
 /// `seen` is of type Watch::Seen, and goes to `watch` when the tile is done.
-template <class Real, class Watch, class Body>
-void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const ExtraSlots<Real>& extra,
+template <class Watch, class Body>
+void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const CrossingSlots& extra,
                const Watch& watch, const Body& body) {
   exec::parallel_tasks(space, label, static_cast<long>(tiles.by_colour.size()),
                        [=, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
@@ -102,11 +137,11 @@ void flush(const Lattice& lattice, int corner_x, int corner_y, const Real* mass,
 
 }  // namespace detail
 
-/// body(crossing, first, last, target, seen) for the stretches of every tile that holds particles; bodies add to the
+/// body(stretch, first, last, target, seen) for the stretches of every tile that holds particles; bodies add to the
 /// nodes of `target` and to the extra slots. With Mass false nothing is added to the masses.
 template <bool Mass, class Real, class Watch, class Body>
 void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind, const Tiles& tiles,
-                   const Lattice& lattice, Real* grid_mass, Real* grid_q, const ExtraSlots<Real>& extra,
+                   const Lattice& lattice, Real* grid_mass, Real* grid_q, const CrossingSlots& extra,
                    const Watch& watch, const Body& body) {
   const exec::Stopwatch timed(space.timers(), label);
   const int* list = tiles.by_colour.data();

@@ -24,6 +24,7 @@ void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& f
   fields.traced = cracks.plane;
   fields.fields.resize(particles);
   fields.crossing.resize(fields.block_limit.size());
+  fields.block_slots.resize(fields.block_limit.size());
   fields.memory.zero();
   fields.limit.zero();
   fields.block_limit.zero();
@@ -35,6 +36,7 @@ void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& f
   fields.tally.zero();
   std::fill(fields.recount.begin(), fields.recount.end(), std::uint8_t{1});
   fields.used = 0;
+  fields.slots_used = 0;
 }
 
 /// Moves of the cracks since the last trace.

@@ -11,12 +11,11 @@ namespace riven {
 
 namespace {
 
-template <bool Crossing, class Real, class Shape>
-RIVEN_INLINE void gather_gradients(const Block<Real, Shape>& w, long first, int count, const Real* q, int nx,
-                                   const ExtraSlots<Real>& extra, GradientLanes<Real>& g) {
-  each_particle<Crossing>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
-    g.set(k, word != 0 ? gather_fields<true>(w, k, q, word, extra) : gather<true>(w, k, q, nx));
-  });
+template <class Stretch, class Real, class Shape>
+RIVEN_INLINE void gather_gradients(const Block<Real, Shape>& w, const Stretch& stretch, long first, int count,
+                                   const Real* q, int nx, GradientLanes<Real>& g) {
+  each_particle<Shape>(stretch, first, count,
+                       [&](int k, auto slots) RIVEN_LANE { g.set(k, gather_from<true>(w, k, q, nx, slots)); });
 }
 
 /// -m times the stress that the gradients of the shape functions meet: tau, or tau M^T in USAVG.
@@ -47,29 +46,29 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), q,
       extra, see,
-      [=](auto crossing, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
+      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
         StressLanes<Real> stress;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           w.weigh(at, first);
-          gather_gradients<crossing.value>(w, first, count, q, nx, extra, gradient);
+          gather_gradients(w, stretch, first, count, q, nx, gradient);
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
           stress.template take<Averaged>(p, first, count, gradient, step);
-          each_particle<crossing.value>(extra, first, count, [&](int k, auto word) RIVEN_LANE {
+          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
             const Real m = p.mass[first + k];
             const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
                 C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
-            if (word != 0)
-              scatter_fields<false, true>(w, k, Real(0), A, B, C, to, word, extra, static_cast<Real*>(nullptr), q);
+            if constexpr (std::is_pointer_v<decltype(slots)>)
+              scatter_slots<false, true>(w, k, Real(0), A, B, C, to, slots, extra, static_cast<Real*>(nullptr), q);
             else
               scatter<false, true>(w, k, Real(0), A, B, C, to);
           });
@@ -85,18 +84,18 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const ExtraSlots<Real> extra = extra_slots(s, false);
+  const CrossingSlots extra = crossing_slots(s);
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
   each_tile(space, "stress after, move", s.particles.tiles, extra, see,
-            [=](auto crossing, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
+            [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               GradientLanes<Real> gradient;
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 w.weigh(at, first);
-                gather_gradients<crossing.value>(w, first, count, again, nx, extra, gradient);
+                gather_gradients(w, stretch, first, count, again, nx, gradient);
                 update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
                 exec::for_lanes(count, [&](int k) RIVEN_LANE {
                   p.x[first + k] += p.step_x[first + k];

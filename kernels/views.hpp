@@ -32,14 +32,13 @@ Positions<Real> positions(const State<Real, 2>& s) {
           Real(1 / l.h),           {s.domains.data(), s.particles.body.data(), s.domains.size() == 1}};
 }
 
-/// How particles reach the extra slots; `shared` when several tiles may write to a slot at once.
-template <class Real>
-ExtraSlots<Real> extra_slots(const CrackFields& f, const Lattice& l, bool shared) {
-  return {f.fields.data(), f.tile_marked.data(), f.crossing.data(), f.extra.data(), l.nodes(), l.nx, shared};
+/// `shared`: several tiles may write to a slot at once.
+inline CrossingSlots crossing_slots(const CrackFields& f, const Lattice& l, bool shared = false) {
+  return {f.tile_marked.data(), f.crossing.data(), f.block_slots.data(), f.slots.data(), l.nodes(), shared};
 }
 template <class Real>
-ExtraSlots<Real> extra_slots(const State<Real, 2>& s, bool shared) {
-  return extra_slots<Real>(s.fields, s.grid.lattice, shared);
+CrossingSlots crossing_slots(const State<Real, 2>& s, bool shared = false) {
+  return crossing_slots(s.fields, s.grid.lattice, shared);
 }
 
 template <class Law, class Real>
@@ -55,17 +54,6 @@ const Law* law_table(const LawTables<Real>& t) {
 template <class Law, class Real>
 BodyLookup<Law> laws(const State<Real, 2>& s) {
   return {law_table<Law>(s.laws), s.particles.body.data(), s.domains.size() == 1};
-}
-
-/// body(k, word) for the particles of a block; word tells which nodes a particle sees across cracks. In a stretch where
-/// none does it is a constant 0, so that the loop is compiled without the way out to the others.
-template <bool Crossing, class Real, class Body>
-RIVEN_INLINE void each_particle(const ExtraSlots<Real>& e, long first, int count, const Body& body) {
-  for (int k = 0; k < count; ++k)
-    if constexpr (Crossing)
-      body(k, e.word[first + k]);
-    else
-      body(k, std::integral_constant<std::uint32_t, 0>{});
 }
 
 }  // namespace riven

@@ -66,11 +66,15 @@ struct TileTrace {
   double limit = 0;   ///< path up to which no particle of the tile needs to be looked at
   int turned = 0;     ///< 1 if particles of the tile may be in a cell of CrackFields::turned
   int changed = 0;    ///< 1 if records of its particles have changed, or what they mean
+  int crossing = 0;   ///< particles that see a node across a crack
+  int room = 0;       ///< how many of them CrackFields::slots has room for, from `slots` on
+  int slots = 0;
   int warnings[2] = {0, 0};
 };
 
 struct CrackFields {
   static constexpr int bits = 2;          ///< of a field number
+  static_assert(exec::lanes <= 16);       // bits in `crossing`
   static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
 
   // hash: cells, tiles and nodes that may see cracks; remade when a crack has moved by more than the margin.
@@ -114,14 +118,20 @@ struct CrackFields {
   exec::Array<std::uint8_t> recount;   ///< [flagged] 1 where sums have changed
 
   // assign
-  exec::Array<std::uint8_t> verdict;   ///< [2 candidates] what a crossing of this entry means
-  exec::Array<std::uint32_t> fields;   ///< [particles] `bits` for each neighbour node, row by row from the lower left
-  exec::Array<std::uint8_t> crossing;  ///< [blocks of particles] 1 if `fields` is not 0 for some; see block_of
+  exec::Array<std::uint8_t> verdict;    ///< [2 candidates] what a crossing of this entry means
+  exec::Array<std::uint32_t> fields;    ///< [particles] `bits` for each neighbour node, row by row from the lower left
+  exec::Array<std::uint16_t> crossing;  ///< [blocks of particles] a bit for each whose `fields` is not 0; see block_of
+  exec::Array<int> block_slots;         ///< [blocks of particles] where the slots of the first of these stand
+  exec::Array<int> slots;  ///< grid slots of all nodes of each particle that crosses, one after the other in a tile
+  long slots_used = 0;
   long warning_both_sides = 0;  ///< warning 1 (see assign_fields.hpp), summed over steps: pairs that cross a crack from
                                 ///< the side which fewer pairs of the node come from
   long warning_third_crack = 0;  ///< warning 2: pairs that cross a crack beyond the two held by the node
   Vec2 warning_place[2];         ///< the node at which each was seen first
 
+  static RIVEN_INLINE int field_of(std::uint32_t word, int neighbour) {
+    return static_cast<int>(word >> (bits * neighbour) & 3u);
+  }
   /// Number of the block that begins with particle `first`, in the marked tile of this number.
   static RIVEN_INLINE long block_of(long first, long marked) { return first / exec::lanes + marked; }
 };

@@ -9,22 +9,23 @@ using namespace riven;
 /// One particle a thread.
 template <class Real, class Shape, class Law>
 __global__ void step(long particles, Positions<Real> positions, const Law* laws, const std::uint8_t* body, int nx,
-                     Real* mass, Real* q, ExtraSlots<Real> extra, LawState<Real>* state) {
+                     Real* mass, Real* q, CrossingSlots extra, LawState<Real>* state) {
   const long p = blockIdx.x * static_cast<long>(blockDim.x) + threadIdx.x;
   if (p >= particles)
     return;
-  const std::uint32_t word = extra.word ? extra.word[p] : 0;
+  const bool crosses = extra.crossing && extra.crossing[p] != 0;  // blocks of one particle
   const NodeTarget<Real> grid{mass, q, nx, 0, 0};
   Block<Real, Shape> w;
   w.weigh(positions, p);
   const Quad<Real> one{1, 1, 1, 1};
   Gathered<Real> g;
-  if (word == 0) {
+  if (!crosses) {
     scatter<true, true>(w, 0, Real(1), one, one, one, grid);
     g = gather<true>(w, 0, q, nx);
   } else {
-    scatter_fields<true, true>(w, 0, Real(1), one, one, one, grid, word, extra, mass, q);
-    g = gather_fields<true>(w, 0, q, word, extra);
+    const int* slots = extra.slots + extra.block_slots[p];
+    scatter_slots<true, true>(w, 0, Real(1), one, one, one, grid, slots, extra, mass, q);
+    g = gather_slots<true>(w, 0, q, slots);
   }
   const Law law = laws[body[p]];
   law.update(exp_minus_identity(Mat2<Real>{g.dx[0], g.dy[0], g.dx[1], g.dy[1]}), state[p]);
