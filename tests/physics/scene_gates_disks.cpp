@@ -437,6 +437,10 @@ class FiveDisksOfCells : public ::testing::TestWithParam<int> {};
 ///    30     3.1 / 6.2   12.6 / 1.5   3.0 / 3.1     3.0 / 3.0    1.7 / 2.7   1.7 / 1.8     1.7 / 1.8
 ///    60     2.3 / 3.0    4.4 / 1.5   2.6 / 2.5     2.6 / 2.5    1.3 / 1.6   1.5 / 1.4     1.5 / 1.4
 ///   120     2.8 / 2.6    2.5 / 2.9   2.8 / 2.3     2.9 / 2.3    1.6 / 1.4   1.5 / 1.2     1.5 / 1.2
+///   240     3.6 / 4.6    6.6 / 2.6   3.7 / 2.7     4.0 / 2.6    1.7 / 2.1   1.7 / 1.2     1.8 / 1.2
+///
+/// One moment depends on when the front is said to be there (right tip, 120 cells: 1.6 at t c / D = 4.9, 2.6 at 5.3);
+/// the mean does not.
 TEST_P(FiveDisksOfCells, TipsGatherTwiceTheFringesOfDiskTwo) {
   const int cells = GetParam();
   const FiveDisks r =
@@ -461,8 +465,8 @@ TEST_P(FiveDisksOfCells, TipsGatherTwiceTheFringesOfDiskTwo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, FiveDisksOfCells, ::testing::Values(30, 60));
-/// The last row of the table, a matter of minutes.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Cells, FiveDisksOfCells, ::testing::Values(120));
+/// The last rows of the table, a matter of minutes and of half an hour.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Cells, FiveDisksOfCells, ::testing::Values(120, 240));
 
 TEST(FiveDisks, FacesMeet) {
   report("five disks, steps with contact on the crack", static_cast<double>(five_disks().touching_steps), "> 0");
