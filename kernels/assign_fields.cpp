@@ -174,8 +174,13 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
       if (hold_cracks(lattice, fields, f))
         mark_changed(lattice, fields.nodes[f].node, fields);
     }
-    average_normals(lattice, cracks, fields, f);
+    for (int m = 0; m < fields.held[f]; ++m)
+      fields.nodes[f].normal[m] = fields.nodes[f].normal0[m] = {};
   });
+  exec::parallel_tasks(space, "assign fields", cracks.count(),
+                       [&](long c) { add_normals(lattice, cracks, static_cast<int>(c), fields); });
+  exec::parallel_for(space, "assign fields", fields.nodes.size(),
+                     [&](long f) { finish_normals(lattice, cracks, f, fields); });
   exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
     if (fields.tiles[m].changed)

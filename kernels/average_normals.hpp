@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/shape.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
@@ -18,23 +19,8 @@ namespace riven {
 
 namespace detail {
 
-RIVEN_INLINE double bspline(double r) {
-  const double outer = std::max(0., 1.5 - std::fabs(r)), inner = std::max(0., 0.5 - std::fabs(r));
-  return 0.5 * outer * outer - 1.5 * inner * inner;
-}
-
-/// Mean of B over the pieces of a segment, its ends in cells from the node.
-RIVEN_INLINE double weight_of(Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  const int pieces = length2 <= 0.36 ? 1 : static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));
-  double sum = 0;
-  for (int k = 0; k < pieces; ++k) {
-    const double t = (k + 0.5) / pieces;
-    sum += bspline(a.x + t * d.x) * bspline(a.y + t * d.y);
-  }
-  return sum / pieces;
-}
+/// Nodes beyond a wall count as any other.
+inline constexpr AxisSetting<double> no_walls{0, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
 /// Normal of the segment a-b times its length, from above to below.
 RIVEN_INLINE Vec2 weighted_normal(Vec2 a, Vec2 b) {
@@ -48,34 +34,57 @@ RIVEN_INLINE Vec2 unit(Vec2 n) {
 
 }  // namespace detail
 
-/// Sets the normals of flagged node f, by the segments of now and in their first position. A crack that only just
-/// reaches into sight of the node, or folds back so that its normals cancel, has its nearest segment's.
-inline void average_normals(const Lattice& lattice, const Cracks& cracks, CrackFields& fields, long f) {
-  NodeCracks& node = fields.nodes[f];
+/// Adds the pieces of crack c to the sums of the nodes around them that hold it.
+inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, CrackFields& fields) {
   const double inv_h = 1 / lattice.h;
-  const Vec2 place = lattice.position(node.node);
-  int c = fields.candidate_start[f];
-  for (int m = 0; m < fields.held[f]; ++m) {
-    while (fields.candidate[c] != node.crack[m])
-      ++c;
-    Vec2 sum, sum0;
-    const auto add = [&](int k, double weight) {
-      sum += weight * detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
-      sum0 += weight * detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
-    };
-    const int first = fields.segment_start[c], last = fields.segment_start[c + 1];
-    for (int s = first; s < last; ++s) {
-      const int k = fields.node_segment[s];
-      add(k, detail::weight_of((cracks.plane[k] - place) * inv_h, (cracks.plane[k + 1] - place) * inv_h));
+  for (int k = cracks.start[static_cast<size_t>(c)]; k + 1 < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
+    const Vec2 a = (cracks.plane[k] - lattice.origin) * inv_h, d = (cracks.plane[k + 1] - lattice.origin) * inv_h - a;
+    const double length2 = dot(d, d);
+    const int pieces = length2 <= 0.36 ? 1 : static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));
+    const Vec2 n = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]) * (1. / pieces);
+    const Vec2 n0 = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]) * (1. / pieces);
+    for (int piece = 0; piece < pieces; ++piece) {
+      const Vec2 X = a + ((piece + 0.5) / pieces) * d;
+      const auto x = BSpline::axis(X.x, detail::no_walls), y = BSpline::axis(X.y, detail::no_walls);
+      if (x.base < 0 || y.base < 0 || x.base + 3 > lattice.nx || y.base + 3 > lattice.ny)
+        continue;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const int f = fields.node_index[(y.base + j) * lattice.nx + x.base + i];
+          if (f < 0)
+            continue;
+          NodeCracks& node = fields.nodes[f];
+          const int m = node.crack[1] == c;
+          if (node.crack[m] != c)
+            continue;
+          const double weight = x.s[i] * y.s[j];
+          node.normal[m] += weight * n;
+          node.normal0[m] += weight * n0;
+        }
     }
-    if (const double least = 1e-9 * lattice.h; !(norm(sum) > least && norm(sum0) > least)) {
+  }
+}
+
+/// Makes the sums of flagged node f normals. A crack that only just reaches into sight of the node, or folds back so
+/// that its normals cancel, has its nearest segment's.
+inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f, CrackFields& fields) {
+  NodeCracks& node = fields.nodes[f];
+  for (int m = 0; m < fields.held[f]; ++m) {
+    const double least = 1e-9 * lattice.h;
+    if (!(norm(node.normal[m]) > least && norm(node.normal0[m]) > least)) {
+      int c = fields.candidate_start[f];
+      while (fields.candidate[c] != node.crack[m])
+        ++c;
+      const Vec2 place = lattice.position(node.node);
       const auto far = [&](int k) { return distance2(place, cracks.plane[k], cracks.plane[k + 1]); };
       const int* list = fields.node_segment.data();
-      sum = sum0 = {};
-      add(*std::min_element(list + first, list + last, [&](int a, int b) { return far(a) < far(b); }), 1);
+      const int k = *std::min_element(list + fields.segment_start[c], list + fields.segment_start[c + 1],
+                                      [&](int a, int b) { return far(a) < far(b); });
+      node.normal[m] = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
+      node.normal0[m] = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
     }
-    node.normal[m] = detail::unit(sum);
-    node.normal0[m] = detail::unit(sum0);
+    node.normal[m] = detail::unit(node.normal[m]);
+    node.normal0[m] = detail::unit(node.normal0[m]);
   }
 }
 
