@@ -134,43 +134,63 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
   }
 }
 
-/// The same as `scatter` for a particle that sees some nodes across cracks: slots behind the plain grid are those of
-/// `grid_mass`, `grid_q`.
-template <bool Mass, bool Gradient, class Real, class Shape>
-RIVEN_OUTLINE void scatter_slots(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
-                                 const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
-                                 const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
+/// put(n, part, mass) for each node of particle k, with what `scatter` adds to it.
+template <bool Mass, bool Gradient, class Real, class Shape, class Put>
+RIVEN_INLINE void each_part(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
+                            const Quad<Real>& C, const Put& put) {
   constexpr int N = Shape::width;
-  const int first = to.at(w.ix[k], w.iy[k]);
 #pragma GCC unroll 3
   for (int j = 0; j < N; ++j) {
-    Quad<Real> row = w.sy[j][k] * A;
-    Quad<Real> across{};
+    Quad<Real> row = w.sy[j][k] * A, across{};
     if constexpr (Gradient) {
       row += w.gy[j][k] * C;
       across = w.sy[j][k] * B;
     }
+    const Real m = mass * w.sy[j][k];
 #pragma GCC unroll 3
-    for (int i = 0; i < N; ++i) {
-      const int slot = slots[j * N + i];
-      const bool behind = slot >= extra.nodes;
-      Quad<Real> part = w.sx[i][k] * row;
+    for (int i = 0; i < N; ++i)
       if constexpr (Gradient)
-        part += w.gx[i][k] * across;
-      const Real m = Mass ? mass * w.sx[i][k] * w.sy[j][k] : Real(0);
-      if (behind & extra.atomic) {
-        for (int c = 0; c < 4; ++c)
-          exec::atomic_add(grid_q[4L * slot + c], part[c]);
-        if constexpr (Mass)
-          exec::atomic_add(grid_mass[slot], m);
-        continue;
-      }
-      const long at = behind ? slot : first + j * to.stride + i;
-      quad_at<Real>((behind ? grid_q : to.q) + 4 * at) += part;
-      if constexpr (Mass)
-        (behind ? grid_mass : to.mass)[at] += m;
-    }
+        put(j * N + i, w.sx[i][k] * row + w.gx[i][k] * across, m * w.sx[i][k]);
+      else
+        put(j * N + i, w.sx[i][k] * row, m * w.sx[i][k]);
   }
+}
+
+/// The same as `scatter` into a tile's own buffer for a particle that sees some nodes across cracks: those are slots of
+/// the grid.
+template <bool Mass, bool Gradient, class Real, class Shape>
+RIVEN_OUTLINE void scatter_apart(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
+                                 const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
+                                 const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
+  const int first = to.at(w.ix[k], w.iy[k]);
+  each_part<Mass, Gradient>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) {
+    const int slot = slots[n];
+    if (slot < extra.nodes) {
+      const long at = first + n / Shape::width * to.stride + n % Shape::width;
+      quad_at<Real>(to.q + 4 * at) += part;
+      if constexpr (Mass)
+        to.mass[at] += m;
+      return;
+    }
+    for (int c = 0; c < 4; ++c)
+      add(grid_q[4L * slot + c], part[c], extra.atomic);
+    if constexpr (Mass)
+      add(grid_mass[slot], m, extra.atomic);
+  });
+}
+
+/// The same as `scatter` for a particle that sees some nodes across cracks.
+template <bool Mass, bool Gradient, class Real, class Shape>
+RIVEN_INLINE void scatter_slots(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
+                                const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
+                                const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
+  if (to.q != grid_q)
+    return scatter_apart<Mass, Gradient>(w, k, mass, A, B, C, to, slots, extra, grid_mass, grid_q);
+  each_part<Mass, Gradient>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) RIVEN_LANE {
+    quad_at<Real>(grid_q + 4L * slots[n]) += part;
+    if constexpr (Mass)
+      grid_mass[slots[n]] += m;
+  });
 }
 
 /// Four node values at a particle, and their gradients.
