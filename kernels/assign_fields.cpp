@@ -174,8 +174,7 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
       if (hold_cracks(lattice, fields, f))
         mark_changed(lattice, fields.nodes[f].node, fields);
     }
-    for (int m = 0; m < fields.held[f]; ++m)
-      fields.nodes[f].normal[m] = fields.nodes[f].normal0[m] = {};
+    fields.normals[f] = {};
   });
   exec::parallel_tasks(space, "assign fields", cracks.count(),
                        [&](long c) { add_normals(lattice, cracks, static_cast<int>(c), fields); });

@@ -53,13 +53,13 @@ inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, Cra
           const int f = fields.node_index[(y.base + j) * lattice.nx + x.base + i];
           if (f < 0)
             continue;
-          NodeCracks& node = fields.nodes[f];
-          const int m = node.crack[1] == c;
-          if (node.crack[m] != c)
+          const int* const held = fields.nodes[f].crack;
+          const int m = held[1] == c;
+          if (held[m] != c)
             continue;
           const double weight = x.s[i] * y.s[j];
-          node.normal[m] += weight * n;
-          node.normal0[m] += weight * n0;
+          fields.normals[f].now[m] += weight * n;
+          fields.normals[f].first[m] += weight * n0;
         }
     }
   }
@@ -68,10 +68,11 @@ inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, Cra
 /// Makes the sums of flagged node f normals. A crack that only just reaches into sight of the node, or folds back so
 /// that its normals cancel, has its nearest segment's.
 inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f, CrackFields& fields) {
-  NodeCracks& node = fields.nodes[f];
+  const NodeCracks& node = fields.nodes[f];
+  NodeNormals& normals = fields.normals[f];
   for (int m = 0; m < fields.held[f]; ++m) {
     const double least = 1e-9 * lattice.h;
-    if (!(norm(node.normal[m]) > least && norm(node.normal0[m]) > least)) {
+    if (!(norm(normals.now[m]) > least && norm(normals.first[m]) > least)) {
       int c = fields.candidate_start[f];
       while (fields.candidate[c] != node.crack[m])
         ++c;
@@ -80,11 +81,11 @@ inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f,
       const int* list = fields.node_segment.data();
       const int k = *std::min_element(list + fields.segment_start[c], list + fields.segment_start[c + 1],
                                       [&](int a, int b) { return far(a) < far(b); });
-      node.normal[m] = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
-      node.normal0[m] = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
+      normals.now[m] = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
+      normals.first[m] = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
     }
-    node.normal[m] = detail::unit(node.normal[m]);
-    node.normal0[m] = detail::unit(node.normal0[m]);
+    normals.now[m] = detail::unit(normals.now[m]);
+    normals.first[m] = detail::unit(normals.first[m]);
   }
 }
 

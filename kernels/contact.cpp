@@ -64,11 +64,12 @@ struct Motion {
   }
 };
 
+template <class Real>
 struct Detection {
   ContactDetection by;
   double v_sep, v_contact;
-  const double* place;   ///< ContactSums::place, null where not summed
-  const double* volume;  ///< ContactSums::volume, null where not summed
+  NodeSums<Real> sums;
+  const NodeNormals* normals;
   const ContactArea* area;
   double reach;  ///< m, gap beyond which nothing touches (displacement)
 };
@@ -82,8 +83,9 @@ struct Verdict {
 };
 
 /// What detection says of a meeting of fields in these slots, with these masses.
-RIVEN_INLINE Verdict judge(const Detection& found, const long* slot, const double* mass, double dt, const Meeting& m,
-                           double relative_volume) {
+template <class Real>
+RIVEN_INLINE Verdict judge(const Detection<Real>& found, const long* slot, const double* mass, double dt,
+                           const Meeting& m, double relative_volume) {
   if (m.law.law == ContactLaw::ignored)
     return {Touch::none, {}, 0};
   if (m.law.law == ContactLaw::bonded)
@@ -99,7 +101,7 @@ RIVEN_INLINE Verdict judge(const Detection& found, const long* slot, const doubl
   if (by_volume && relative_volume < found.v_sep)
     return {Touch::apart, {}, 0};
   const bool held = by_volume && relative_volume > found.v_contact;
-  const double g = found.by == ContactDetection::displacement ? gap_of(m, found.place, slot, mass) : 0;
+  const double g = found.by == ContactDetection::displacement ? gap_of(m, found.sums.place, slot, mass) : 0;
   if (g > found.reach)
     return {Touch::apart, {}, g};
   if (m.law.law == ContactLaw::stick)
@@ -110,13 +112,14 @@ RIVEN_INLINE Verdict judge(const Detection& found, const long* slot, const doubl
 /// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
 /// search for a common solution.
 template <class Real, ContactStage stage>
-RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection& found, double dt, const NodeCracks& n,
-                              const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
+RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection<Real>& found, double dt,
+                              const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
+                              ContactReport& report) {
   const long slot[2] = {n.node, long{lattice.nodes()} + n.extra};
   const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return;
-  const Meeting m = neighbour_meeting(n, laws, 0, 0, 1);
+  const Meeting m = neighbour_meeting(n, found.normals[index], laws, 0, 0, 1);
   if (m.law.law == ContactLaw::ignored)
     return;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
@@ -128,8 +131,9 @@ RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection
     ++report.apart;  // faces that part do not touch, whatever their gap
     return;
   }
-  const double volume =
-      found.volume ? relative_volume(lattice, n.node, found.volume[slot[0]] + found.volume[slot[1]]) : 1;
+  found.sums.ask(index, n);
+  const double* area = found.sums.volume;
+  const double volume = area ? relative_volume(lattice, n.node, area[slot[0]] + area[slot[1]]) : 1;
   const Verdict v = judge(found, slot, mass, dt, m, volume);
   const double tiny = ContactNode::tolerance * (norm(momentum[0]) + norm(momentum[1]));
   Vec2 velocity[2], impulse[2];
@@ -167,7 +171,7 @@ RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection
 template <class Real, ContactStage stage>
 struct NodeContact {
   const Motion<Real, stage>& motion;
-  const Detection& found;
+  const Detection<Real>& found;
   const double dt;
   const ContactArea* area = nullptr;
   ContactNode node{};
@@ -296,16 +300,17 @@ struct NodeContact {
 
   RIVEN_INLINE void run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
     load(n, lattice);
-    const Meetings meetings = find_meetings(n, node.mass, laws);
+    const Meetings meetings = find_meetings(n, found.normals[index], node.mass, laws);
     if (meetings.count == 0)
       return;
     if (found.area)
       area = found.area + 2 * index;
     double volume = 1;
-    if (found.volume) {
+    found.sums.ask(index, n);
+    if (found.sums.volume) {
       volume = 0;
       for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
-        volume += found.volume[slot[f]];
+        volume += found.sums.volume[slot[f]];
       volume = relative_volume(lattice, n.node, volume);
     }
     detect(meetings, volume);
@@ -325,7 +330,7 @@ struct NodeContact {
 
 template <ContactStage stage, class Real>
 void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-         const Detection& found, double dt, ContactReport& report) {
+         const Detection<Real>& found, double dt, ContactReport& report) {
   const Motion<Real, stage> motion(grid);
   const NodeCracks* nodes = fields.nodes.data();
   const std::uint8_t* held = fields.held.data();
@@ -336,7 +341,7 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
       return;
     const NodeCracks& n = nodes[i];
     if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
-      one_contact(motion, found, dt, n, lattice, laws, sum);
+      one_contact(motion, found, dt, n, i, lattice, laws, sum);
       return;
     }
     NodeContact<Real, stage> here{motion, found, dt};
@@ -349,7 +354,8 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
 
 template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-             const ContactRules& rules, ContactStage stage, double dt, const ContactSums& sums, ContactReport& report) {
+             const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
+             ContactSums& sums, ContactReport& report) {
   const auto any = [&](auto&& which) { return std::any_of(cracks.contact.begin(), cracks.contact.end(), which); };
   const bool interfaces = any([](const ContactSettings& c) { return c.law == ContactLaw::interface; });
   const bool parting = any([](const ContactSettings& c) {
@@ -361,13 +367,13 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
   if ((by_position && !positions) || (by_volume && !volumes) ||
       (interfaces && sums.area.size() != 2 * fields.nodes.size()))
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
-  const Detection found{.by = rules.detection,
-                        .v_sep = rules.v_sep,
-                        .v_contact = rules.v_contact,
-                        .place = positions ? sums.place.data() : nullptr,
-                        .volume = volumes ? sums.volume.data() : nullptr,
-                        .area = sums.area.data(),
-                        .reach = 0.2 * grid.lattice.h};
+  const Detection<Real> found{.by = rules.detection,
+                              .v_sep = rules.v_sep,
+                              .v_contact = rules.v_contact,
+                              .sums = node_sums(of, grid.lattice, fields, sums),
+                              .normals = fields.normals.data(),
+                              .area = sums.area.data(),
+                              .reach = 0.2 * grid.lattice.h};
   switch (stage) {
     case ContactStage::before:
       return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);
@@ -381,8 +387,8 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
 }
 
 template void contact(const exec::Space&, Grid<float>&, const CrackFields&, const Cracks&, const ContactRules&,
-                      ContactStage, double, const ContactSums&, ContactReport&);
+                      ContactStage, double, const ContactParticles<float>&, ContactSums&, ContactReport&);
 template void contact(const exec::Space&, Grid<double>&, const CrackFields&, const Cracks&, const ContactRules&,
-                      ContactStage, double, const ContactSums&, ContactReport&);
+                      ContactStage, double, const ContactParticles<double>&, ContactSums&, ContactReport&);
 
 }  // namespace riven

@@ -57,11 +57,12 @@ struct ContactReport {
   ContactReport& operator+=(const ContactReport& o);
 };
 
-/// Applies contact to all flagged nodes; adds to the report. `sums` as the detection and the laws need them: field for
-/// displacement and volume, area for interfaces. Bonded and ignored cracks need none. Throws Error (internal) if sums
-/// are missing.
+/// Applies contact to all flagged nodes; adds to the report. `sums` as contact_sums() prepared them, of what the
+/// detection and the laws need: positions for displacement, volumes for volume, areas for interfaces. Bonded and
+/// ignored cracks need none. Throws Error (internal) if sums are missing.
 template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-             const ContactRules& rules, ContactStage stage, double dt, const ContactSums& sums, ContactReport& report);
+             const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
+             ContactSums& sums, ContactReport& report);
 
 }  // namespace riven

@@ -26,22 +26,24 @@ struct Meetings {
 };
 
 /// Fields f and f + 2^k, which meet across crack k alone.
-RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, const ContactSettings* laws, int k, int f, double share) {
+RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, const NodeNormals& w, const ContactSettings* laws, int k,
+                                       int f, double share) {
   const int g = f + (1 << k);
   const bool crossing_above = n.side[k] == Side::above;
-  return {crossing_above ? g : f, crossing_above ? f : g, k, n.normal[k], n.normal0[k], laws[n.crack[k]], share};
+  return {crossing_above ? g : f, crossing_above ? f : g, k, w.now[k], w.first[k], laws[n.crack[k]], share};
 }
 
 /// Fields that differ on both cracks and have none between them.
-RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const ContactSettings* laws, int f, int g) {
+RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const NodeNormals& w, const ContactSettings* laws, int f,
+                                      int g) {
   const ContactSettings &a = laws[n.crack[0]], &b = laws[n.crack[1]];
   const int k = stricter(b, a) ? 1 : 0;
   Vec2 normal[2], normal0[2];
   for (int c = 0; c < 2; ++c) {
     const bool crosses = f & (1 << c), crossing_above = n.side[c] == Side::above;
     const double sign = crosses == crossing_above ? 1 : -1;  // +1: f lies above crack c and g below
-    normal[c] = sign * n.normal[c];
-    normal0[c] = sign * n.normal0[c];
+    normal[c] = sign * w.now[c];
+    normal0[c] = sign * w.first[c];
   }
   Vec2 sum = normal[0] + normal[1], sum0 = normal0[0] + normal0[1];
   if (norm(sum) < 1e-6 || norm(sum0) < 1e-6) {  // both cracks are parallel and f and g lie outside of them
@@ -52,8 +54,8 @@ RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const ContactSettings
 }
 
 /// All meetings of a node's fields; `mass` is 0 where a field is absent.
-RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[ContactNode::fields],
-                                    const ContactSettings* laws) {
+RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const NodeNormals& w,
+                                    const double (&mass)[ContactNode::fields], const ContactSettings* laws) {
   Meetings m;
   const auto present = [&](int f) { return mass[f] > 0; };
   for (int k = 0; k < 2; ++k) {
@@ -67,7 +69,7 @@ RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[Co
         continue;
       const double both = mass[f] + mass[g];
       total += both;
-      m.list[m.count++] = neighbour_meeting(n, laws, k, f, both);
+      m.list[m.count++] = neighbour_meeting(n, w, laws, k, f, both);
     }
     for (int i = first; i < m.count; ++i)
       m.list[i].share /= total;
@@ -75,9 +77,9 @@ RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const double (&mass)[Co
   if (n.crack[0] < 0 || n.crack[1] < 0)
     return m;
   if (present(0) && present(3) && !present(1) && !present(2))
-    m.list[m.count++] = diagonal_meeting(n, laws, 0, 3);
+    m.list[m.count++] = diagonal_meeting(n, w, laws, 0, 3);
   if (present(1) && present(2) && !present(0) && !present(3))
-    m.list[m.count++] = diagonal_meeting(n, laws, 1, 2);
+    m.list[m.count++] = diagonal_meeting(n, w, laws, 1, 2);
   return m;
 }
 

@@ -6,11 +6,15 @@ namespace riven {
 
 namespace {
 
+ContactParticles<double> particles(const Simulation& m) {
+  return {m.plan.shape, m.state.particles, m.state.domains, m.state.specific_area, m.state.watch.drift};
+}
+
 /// One stage; `reaches_particles` is the part of its change in energy that the particles take over.
 void stage(Simulation& m, ContactStage at, ContactReport& report, double reaches_particles) {
   ContactReport now;
   contact(m.space, m.state.grid, m.state.fields, m.state.cracks, m.scene.contact_rules, at, m.state.clock.dt,
-          m.contact_sums, now);
+          particles(m), m.contact_sums, now);
   m.state.ledger.energy.contact -= reaches_particles * now.work;
   report += now;
 }
@@ -19,9 +23,8 @@ void stage(Simulation& m, ContactStage at, ContactReport& report, double reaches
 
 void sum_for_contact(Simulation& m) {
   const Plan& p = m.plan;
-  contact_sums(m.space, p.shape, {p.contact_volume, p.contact_position, p.contact_area}, m.state.particles,
-               m.state.domains, m.state.specific_area, m.state.grid, m.state.fields, m.state.cracks, m.scene.thickness,
-               m.contact_sums);
+  contact_sums(m.space, {p.contact_volume, p.contact_position, p.contact_area}, particles(m), m.state.grid,
+               m.state.fields, m.state.cracks, m.scene.thickness, m.contact_sums);
 }
 
 void contact_before_update(Simulation& m) {

@@ -9,16 +9,14 @@
 // over the crack's segments s, with the weights of interface_segments.hpp; the areas add up to the crack's where it
 // lies in matter. For the jump see interface_jumps.hpp.
 //
-// Only nodes that a crack passes, and particles in marked tiles, take part. Tiles go colour by colour, each node in
-// the order of its particles: the same bits on any number of threads.
+// Areas of cracks are summed at once, the sums over particles node by node, when contact first asks a node for them.
 #pragma once
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"
-#include "core/state/bodies.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
-#include "core/state/particles.hpp"
+#include "kernels/node_sums.hpp"
 
 namespace riven {
 
@@ -28,11 +26,12 @@ struct ContactArea {
   Vec2 opening;     ///< m, displacement of the lower face minus that of the upper one
 };
 
-/// Sums over particles stand in the slots of the grid, and mean something where the node holds cracks.
+/// Sums over particles stand in the slots of the grid, and mean something where they are known.
 struct ContactSums {
-  exec::Array<double> place;      ///< [4 slots] kg m, current and first positions from the node, times mass: [x y X Y];
-                                  ///< empty: not asked for
-  exec::Array<double> volume;     ///< [slots] m^2 in the plane; empty: not asked for
+  exec::Array<double> place;   ///< [4 slots] kg m, current and first positions from the node, times mass: [x y X Y];
+                               ///< empty: not asked for
+  exec::Array<double> volume;  ///< [slots] m^2 in the plane; empty: not asked for
+  exec::Array<std::uint8_t> known;  ///< [flagged] 1 where those of the node have been summed in this step
   exec::Array<ContactArea> area;  ///< [2 flagged] entry 2 i + k: crack k of CrackFields::nodes[i]; empty: no interface
                                   ///< law
 };
@@ -44,14 +43,17 @@ struct ContactSumsChoice {
   bool area = false;      ///< an interface law
 };
 
-/// Adds up particles and crack segments at the flagged nodes.
-/// `domains` [bodies] sizes of particles, `specific_area` [bodies] first area of a body's particles in m^2 per kg
-/// (1 / (density thickness)), `thickness` of the plane, m. Needs F or J of the particles for volumes, x0 for positions,
-/// the grid's masses for interfaces.
+/// Forgets the sums over particles of the last step, and adds up crack segments at the flagged nodes. `thickness` of
+/// the plane, m. Needs F or J of the particles for volumes, x0 for positions, Tiles::cell_start for both, and the
+/// grid's masses for interfaces.
 template <class Real>
-void contact_sums(const exec::Space& space, ShapeFunction shape, const ContactSumsChoice& choice,
-                  const Particles<Real, 2>& particles, const exec::Array<DomainSetting<Real, 2>>& domains,
-                  const exec::Array<double>& specific_area, const Grid<Real>& grid, const CrackFields& fields,
-                  const Cracks& cracks, double thickness, ContactSums& sums);
+void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, const ContactParticles<Real>& of,
+                  const Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks, double thickness,
+                  ContactSums& sums);
+
+/// The way to the sums over particles that were asked for.
+template <class Real>
+NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattice, const CrackFields& fields,
+                         ContactSums& sums);
 
 }  // namespace riven

@@ -128,6 +128,7 @@ void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::A
                      const exec::Array<int>& start, CrackFields& fields) {
   const long flagged = node.size();
   fields.nodes.resize(flagged);
+  fields.normals.resize(flagged);
   fields.candidate_start.resize(flagged + 1);
   fields.candidate.resize(fields.node_segment.size());
   fields.segment_start.resize(fields.node_segment.size() + 1);

@@ -30,6 +30,7 @@ struct InterfaceSegments {
   const int* extra;
   const int* node_index;
   const NodeCracks* nodes;
+  const NodeNormals* normals;
   const int* start;
   const Vec2* plane;
   const ContactSettings* law;
@@ -42,6 +43,7 @@ struct InterfaceSegments {
         extra(f.extra.data()),
         node_index(f.node_index.data()),
         nodes(f.nodes.data()),
+        normals(f.normals.data()),
         start(c.start.data()),
         plane(c.plane.data()),
         law(c.contact.data()) {}
@@ -53,7 +55,7 @@ struct InterfaceSegments {
     double m[ContactNode::fields] = {};
     for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
       m[f] = mass[slot(n, f)];
-    return find_meetings(n, m, law);
+    return find_meetings(n, normals[&n - nodes], m, law);
   }
   /// Mass of the relative motion across crack k of a node, kg.
   RIVEN_INLINE double relative_mass(const NodeCracks& n, int k) const {

@@ -19,8 +19,7 @@ RIVEN_INLINE int key_of(const Lattice& l, Real X, Real Y) {
   const int i = Shape::cell(X), j = Shape::cell(Y);
   const bool inside =
       i >= l.wall_lower[0] - 1 && i <= l.wall_upper[0] + 1 && j >= l.wall_lower[1] - 1 && j <= l.wall_upper[1] + 1;
-  const int tile = j / Lattice::tile * l.tiles_x() + i / Lattice::tile;
-  return inside ? tile * cells_per_tile + j % Lattice::tile * Lattice::tile + i % Lattice::tile : -1;
+  return inside ? l.sorted_cell(i, j) : -1;
 }
 
 /// Tiles that hold particles, those of one colour together: colour = (x parity) + 2 (y parity).
@@ -70,21 +69,23 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
       key[i] = key_of<typename decltype(shape)::type>(l, (x[i] - ox) * inv, (y[i] - oy) * inv);
     });
   });
-  const long keys = static_cast<long>(l.tiles_x()) * l.tiles_y() * cells_per_tile;
-  exec::Array<int> start(keys + 1);
+  const long keys = l.nodes();
+  exec::Array<int> start(keys + 2);  // of cell k at k + 1, until the particles are placed
   for (long i = 0; i < n; ++i) {
     if (key[i] < 0)
       particle_left_grid(s, i);
-    ++start[key[i] + 1];
+    ++start[key[i] + 2];
   }
   for (long k = 0; k < keys; ++k)
-    start[k + 1] += start[k];
+    start[k + 2] += start[k + 1];
   const int tiles = l.tiles_x() * l.tiles_y();
   p.tiles.start.resize(tiles + 1);
   for (int t = 0; t <= tiles; ++t)
-    p.tiles.start[t] = start[long{t} * cells_per_tile];
+    p.tiles.start[t] = start[long{t} * cells_per_tile + 1];
   for (long i = 0; i < n; ++i)
-    order[start[key[i]]++] = static_cast<int>(i);
+    order[start[key[i] + 1]++] = static_cast<int>(i);
+  if (plan.contact)
+    p.tiles.cell_start.swap(start);
 
   exec::Array<Real> spare_real;
   exec::Array<int> spare_int;

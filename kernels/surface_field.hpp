@@ -72,22 +72,28 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
 
 /// One surface of a crack's point.
 struct SurfacePoint {
-  CrackPoint own;
+  const CrackPoint& own;
   Side side;
-  Vec2 x;           ///< where the surface is now
-  int first, last;  ///< part of cell_segment that its cell sees
-  bool alone;       ///< no other crack is among these
-};
+  Vec2 x;    ///< where the surface is now
+  int cell;  ///< that of x, by the shape function of the hash
+  bool looked = false;
+  int first = 0, last = 0;  ///< once looked: part of cell_segment that the cell sees
+  bool alone = true;        ///< and whether no other crack is among these
 
-/// `cell`: that of x, by the shape function of the hash.
-RIVEN_INLINE SurfacePoint surface_point(const SurfaceView& view, const CrackPoint& own, Side side, Vec2 x, int cell) {
-  const int seen = view.cell_index[cell];
-  if (seen < 0)
-    return {own, side, x, 0, 0, true};
-  const int first = view.cell_start[seen], last = view.cell_start[seen + 1];
-  const auto is_own = [&](int at) { return view.crack[view.cell_segment[at]] == own.crack; };
-  return {own, side, x, first, last, first == last || (is_own(first) && is_own(last - 1))};
-}
+  /// Most points never need to know which segments are around.
+  RIVEN_INLINE void look(const SurfaceView& view) {
+    if (looked)
+      return;
+    looked = true;
+    const int seen = view.cell_index[cell];
+    if (seen < 0)
+      return;
+    first = view.cell_start[seen];
+    last = view.cell_start[seen + 1];
+    const auto is_own = [&](int at) { return view.crack[view.cell_segment[at]] == own.crack; };
+    alone = first == last || (is_own(first) && is_own(last - 1));
+  }
+};
 
 namespace detail {
 
@@ -178,7 +184,7 @@ inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint
 /// The slots of a node for both surfaces of a point, or -1. Where the line along the point tells on which side of the
 /// crack the node is, and no other crack is in sight, this is the same as above without branches: what comes next to
 /// what around a crack is beyond prediction.
-RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, const SurfacePoint* s, int node, Vec2 place, int* slot) {
+RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, int node, Vec2 place, int* slot) {
   slot[0] = slot[1] = node;
   const int f = view.node_index[node];
   if (f < 0)
@@ -190,12 +196,16 @@ RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, const SurfacePoint*
   const Vec2 r = place - own.x;
   const double off = dot(r, own.left);
   const bool unclear = (!holds | own.tip) & !(std::fabs(off) > own.off);
-  if (unclear | (held.sees != own.crack && !(s[0].alone & s[1].alone))) {
-    for (int k = 0; k < 2; ++k) {
-      const int field = field_of_surface(view, s[k], held, place);
-      slot[k] = field == 0 ? node : field < 0 ? -1 : extra + field;
+  if (unclear | (held.sees != own.crack)) {
+    s[0].look(view);
+    s[1].look(view);
+    if (unclear | !s[0].alone | !s[1].alone) {
+      for (int k = 0; k < 2; ++k) {
+        const int field = field_of_surface(view, s[k], held, place);
+        slot[k] = field == 0 ? node : field < 0 ? -1 : extra + field;
+      }
+      return;
     }
-    return;
   }
   const bool beyond = dot(r, own.beyond) > 0;
   for (int k = 0; k < 2; ++k) {

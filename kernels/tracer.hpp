@@ -76,13 +76,13 @@ class Tracer {
   /// Looks at particles first .. last - 1; returns the path of the tile up to which none of them needs to be looked at
   /// again.
   double look(long first, long last, bool moves_known) {
-    double least = never;
-    for (long p = first; p < last; ++p) {
-      if (!moves_known || tile_->turned || !(tile_->path < fields_.limit[p]))
-        fields_.limit[p] = keep(p, moves_known);
-      least = std::min(least, fields_.limit[p]);
-    }
-    return least;
+    double* const limit = fields_.limit.data();
+    const bool all = !moves_known || tile_->turned;
+    const double path = tile_->path;
+    for (long p = first; p < last; ++p)
+      if (all || !(path < limit[p]))
+        limit[p] = keep(p, moves_known);
+    return *std::min_element(limit + first, limit + last);
   }
 
   /// Brings the records of one particle up to date; returns how long they will be.

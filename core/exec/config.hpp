@@ -25,6 +25,13 @@
 
 namespace riven::exec {
 
+/// Asks for the data at p, which will be needed soon.
+RIVEN_INLINE void prefetch([[maybe_unused]] const void* p) {
+#if !defined(__CUDA_ARCH__)
+  __builtin_prefetch(p);
+#endif
+}
+
 /// Particles taken together by one trip through a kernel's body. On the CPU the compiler turns the
 /// trips into vector instructions; a GPU thread takes one particle.
 #if defined(__CUDACC__)

@@ -13,15 +13,18 @@ enum class Side : std::uint8_t { none = 0, above = 1, below = 2 };
 /// What one node that may see cracks knows after `assign`. crack[k] < 0 where there is no such crack.
 /// Field = 1 (crosses crack[0]) + 2 (crosses crack[1]). side[k] is where the particles that cross crack k
 /// come from; the node itself lies on the opposite side. Of two cracks the lower number is first.
-/// All but `normal0` is in one cache line.
-struct alignas(64) NodeCracks {
+struct alignas(32) NodeCracks {
   int node = -1;
   int extra = 0;  ///< CrackFields::extra of the node
   int sees = -1;  ///< the crack that the node may see, or -1 where there are several
   int crack[2] = {-1, -1};
   Side side[2] = {Side::none, Side::none};
-  Vec2 normal[2];   ///< averaged around the node, unit length, from above to below
-  Vec2 normal0[2];  ///< the same of the crack's first position
+};
+
+/// Normals of the cracks that a node holds, averaged around it, of unit length, from above to below.
+struct alignas(64) NodeNormals {
+  Vec2 now[2];
+  Vec2 first[2];  ///< of the cracks' first positions
 };
 
 /// The path from a particle to one of its nodes crosses a crack.
@@ -89,6 +92,7 @@ struct CrackFields {
   exec::Array<int> tile_crack;
   exec::Array<int> node_index;          ///< [nodes] index into `nodes`, or -1
   exec::Array<NodeCracks> nodes;        ///< [flagged] every node that may see a crack, in ascending node number
+  exec::Array<NodeNormals> normals;     ///< [flagged]
   exec::Array<std::uint8_t> held;       ///< [flagged] how many cracks the node holds
   exec::Array<std::uint8_t> cell_held;  ///< [nodes] how many such nodes a cell and its neighbours have
   exec::Array<int> candidate_start;     ///< [flagged + 1] CSR of the cracks that each such node may see

@@ -27,6 +27,10 @@ struct Lattice {
   RIVEN_INLINE int nodes() const { return nx * ny; }
   RIVEN_INLINE int tiles_x() const { return nx / tile; }
   RIVEN_INLINE int tiles_y() const { return ny / tile; }
+  /// Number of cell (i, j) in the order in which particles are sorted: tile by tile, row by row in each.
+  RIVEN_INLINE int sorted_cell(int i, int j) const {
+    return (j / tile * tiles_x() + i / tile) * tile * tile + j % tile * tile + i % tile;
+  }
   RIVEN_INLINE Vec2 position(int node) const { return position(node % nx, node / nx); }
   /// Rounded once, by fma, so that every kernel sees a node at the same place to the last bit.
   RIVEN_INLINE Vec2 position(int i, int j) const { return {std::fma(h, i, origin.x), std::fma(h, j, origin.y)}; }

@@ -156,7 +156,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: body", p.body);
   add("particles: id", p.id);
   const CrackFields& f = s.fields;
-  add("particles: crack fields", f.fields, f.crossing);
+  add("particles: crack fields", f.fields, f.crossing, f.block_slots, f.slots);
   add("particles: crossing memory", f.memory);
   add("grid: mass", s.grid.mass);
   add("grid: momentum and force", s.grid.q);
@@ -166,8 +166,9 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
       s.cracks.lower_velocity, s.cracks.plane0, s.cracks.jump, f.hashed, f.traced, f.crack_move);
   add("cracks: crossings", f.records, f.limit, f.block_limit, f.tiles);
   add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
-      f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.held, f.cell_held, f.candidate_start,
-      f.candidate, f.segment_start, f.node_segment, f.clearance, f.turned, f.tally, f.recount, f.verdict);
+      f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.held, f.cell_held,
+      f.candidate_start, f.candidate, f.segment_start, f.node_segment, f.clearance, f.turned, f.tally, f.recount,
+      f.verdict);
   return list;
 }
 

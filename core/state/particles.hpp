@@ -10,8 +10,9 @@ namespace riven {
 /// Sorted position of the particles of each tile, and the tiles grouped by colour: tiles of one colour never
 /// write to the same node.
 struct Tiles {
-  exec::Array<int> start;      ///< [tiles + 1] first particle of each tile
-  std::vector<int> by_colour;  ///< tiles that hold particles, colour after colour
+  exec::Array<int> start;       ///< [tiles + 1] first particle of each tile
+  exec::Array<int> cell_start;  ///< [cells + 1] and of each cell, by Lattice::sorted_cell (contact only)
+  std::vector<int> by_colour;   ///< tiles that hold particles, colour after colour
   int colour_start[5] = {0, 0, 0, 0, 0};
   long order = 0;  ///< counts the sorts: while it stays, so does every particle's place
 };

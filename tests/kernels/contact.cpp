@@ -32,6 +32,10 @@ struct Setting {
   exec::Array<double> specific_area;
   Grid<double> grid;
   ContactSums sums;
+
+  ContactParticles<double> all(ShapeFunction shape = ShapeFunction::ugimp) const {
+    return {shape, particles, domains, specific_area, 0};
+  }
 };
 
 /// Where a particle of first position X is now.
@@ -119,8 +123,10 @@ void set_masses(Setting& s) {
 template <class Shape = UGimp>
 void sum(Setting& s, const exec::Space& space, ShapeFunction shape = ShapeFunction::ugimp, double thickness = 2) {
   set_masses<Shape>(s);
-  contact_sums(space, shape, {true, true, true}, s.particles, s.domains, s.specific_area, s.grid, s.fields, s.cracks,
-               thickness, s.sums);
+  contact_sums(space, {true, true, true}, s.all(shape), s.grid, s.fields, s.cracks, thickness, s.sums);
+  const NodeSums<double> sums = node_sums(s.all(shape), s.lattice, s.fields, s.sums);
+  for (long i = 0; i < s.fields.nodes.size(); ++i)
+    sums.ask(i, s.fields.nodes[i]);
 }
 
 const Line level{{1, 12.3}, {23, 12.3}};
@@ -206,7 +212,7 @@ std::pair<double, double> gaps(Setting& s, double least_mass = 0) {
     }
     if (mass[0] <= least_mass || mass[1] <= least_mass)
       continue;
-    const Meetings m = find_meetings(n, mass, s.cracks.contact.data());
+    const Meetings m = find_meetings(n, s.fields.normals[i], mass, s.cracks.contact.data());
     const double g = gap_of(m.list[0], s.sums.place.data(), slot, mass);
     low = std::min(low, g);
     high = std::max(high, g);
@@ -290,7 +296,7 @@ TEST(ContactKernel, KeepsTheMomentumOfEveryNodeInEveryStage) {
       random_motion(s, 3);
       const Grid<double> before = s.grid;
       ContactReport report;
-      contact(exec::Space(), s.grid, s.fields, s.cracks, {}, st.stage, dt, s.sums, report);
+      contact(exec::Space(), s.grid, s.fields, s.cracks, {}, st.stage, dt, s.all(), s.sums, report);
       EXPECT_EQ(report.capped, 0);
       EXPECT_GT(report.touching, 5) << name_of(law);
       double change = 0, work = 0;
@@ -348,8 +354,8 @@ TEST(ContactKernel, IsTheSameToTheBitInEverySpaceAndOnAnyNumberOfThreads) {
     sum(s, space);
     random_motion(s, 5);
     ContactReport report;
-    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::before, dt, s.sums, report);
-    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report);
+    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::before, dt, s.all(), s.sums, report);
+    contact(space, s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.all(), s.sums, report);
     std::vector<double> all(s.grid.q.begin(), s.grid.q.end());
     for (const NodeCracks& n : s.fields.nodes)
       for (int f = 0; n.crack[0] >= 0 && f < (n.crack[1] < 0 ? 2 : 4); ++f) {
@@ -395,7 +401,7 @@ ContactReport touch(double jump, ContactDetection by, ContactLaw law = ContactLa
   ContactReport report;
   ContactRules rules;
   rules.detection = by;
-  contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::after, dt, s.sums, report);
+  contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::after, dt, s.all(), s.sums, report);
   return report;
 }
 
@@ -444,7 +450,7 @@ TEST(ContactKernel, VolumeDetectionFollowsItsThreeRanges) {
     ContactReport report;
     ContactRules rules;
     rules.detection = ContactDetection::volume;
-    contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::before, dt, s.sums, report);
+    contact(exec::Space(), s.grid, s.fields, s.cracks, rules, ContactStage::before, dt, s.all(), s.sums, report);
     EXPECT_EQ(report.touching > 0, J > 1.1);
   }
 }
@@ -454,7 +460,7 @@ TEST(ContactKernel, BondedCracksMakeOneFieldOfAll) {
   random_motion(s, 7);
   s.sums = {};  // bonded faces need no detection
   ContactReport report;
-  contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report);
+  contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.all(), s.sums, report);
   int full = 0;
   for (const NodeCracks& n : s.fields.nodes) {
     if (n.crack[0] < 0)
@@ -477,7 +483,8 @@ TEST(ContactKernel, RefusesToGuessWithoutItsSums) {
   random_motion(s, 7);
   s.sums = {};
   ContactReport report;
-  EXPECT_THROW(contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.sums, report), Error);
+  EXPECT_THROW(contact(exec::Space(), s.grid, s.fields, s.cracks, {}, ContactStage::after, dt, s.all(), s.sums, report),
+               Error);
 }
 
 // ---- fields that meet diagonally ----------------------------------------------------------------------------
@@ -487,8 +494,7 @@ TEST(ContactMeetings, DiagonalFieldsMeetAlongTheSumOfBothNormals) {
   n.node = 0;
   n.crack[0] = 0;
   n.crack[1] = 1;
-  n.normal[0] = n.normal0[0] = {0, -1};
-  n.normal[1] = n.normal0[1] = {1, 0};
+  const NodeNormals normals{{{0, -1}, {1, 0}}, {{0, -1}, {1, 0}}};
   const ContactSettings laws[2] = {{ContactLaw::frictionless}, {ContactLaw::coulomb, 0.3}};
   // where the particles of a field lie, from its bits and the sides: above crack 0 is up, above crack 1 is left
   for (Side a : {Side::above, Side::below})
@@ -503,7 +509,7 @@ TEST(ContactMeetings, DiagonalFieldsMeetAlongTheSumOfBothNormals) {
         double mass[4] = {};
         mass[f] = 2;
         mass[g] = 3;
-        const Meetings m = find_meetings(n, mass, laws);
+        const Meetings m = find_meetings(n, normals, mass, laws);
         ASSERT_EQ(m.count, 1);
         const Meeting& d = m.list[0];
         EXPECT_NEAR(norm(d.normal), 1, 1e-15);
@@ -511,7 +517,7 @@ TEST(ContactMeetings, DiagonalFieldsMeetAlongTheSumOfBothNormals) {
         EXPECT_NEAR(dot(d.normal, place(d.below) - place(d.above)), norm(place(d.below) - place(d.above)), 1e-15 * 4);
         EXPECT_EQ(d.law.law, ContactLaw::coulomb);
         mass[f ^ 1] = 1;  // a field between them: two meetings of neighbours, none across
-        EXPECT_EQ(find_meetings(n, mass, laws).count, 2);
+        EXPECT_EQ(find_meetings(n, normals, mass, laws).count, 2);
       }
 }
 

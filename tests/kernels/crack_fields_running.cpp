@@ -68,8 +68,9 @@ void check(StressUpdate update) {
       if (n.crack[0] < 0)
         continue;
       const NodeCracks& k = kept.nodes[kept.node_index[n.node]];
+      const NodeNormals &of = fresh.normals[fresh.node_index[n.node]], &before = kept.normals[kept.node_index[n.node]];
       for (int c = 0; c < 2; ++c)
-        ASSERT_TRUE(n.crack[c] == k.crack[c] && n.side[c] == k.side[c] && n.normal[c] == k.normal[c])
+        ASSERT_TRUE(n.crack[c] == k.crack[c] && n.side[c] == k.side[c] && of.now[c] == before.now[c])
             << "node " << n.node << ", step " << step;
     }
     ++compared;

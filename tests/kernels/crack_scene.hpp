@@ -58,14 +58,17 @@ Particles<double, 2> sorted_particles(const Lattice& l, const std::vector<Vec2>&
   p.body.resize(n);
   p.id.resize(n);
   p.tiles.start.resize(l.tiles_x() * l.tiles_y() + 1);
+  p.tiles.cell_start.resize(l.nodes() + 1);
   for (long i = 0; i < n; ++i) {
     const int id = order[static_cast<size_t>(i)];
     p.id[i] = id;
     p.x[0][i] = x[static_cast<size_t>(id)].x;
     p.x[1][i] = x[static_cast<size_t>(id)].y;
     ++p.tiles.start[tile(id) + 1];
+    ++p.tiles.cell_start[l.sorted_cell(cell(id, 0), cell(id, 1)) + 1];
   }
-  std::partial_sum(p.tiles.start.begin(), p.tiles.start.end(), p.tiles.start.begin());
+  for (exec::Array<int>* start : {&p.tiles.start, &p.tiles.cell_start})
+    std::partial_sum(start->begin(), start->end(), start->begin());
   // another number for another order
   std::uint64_t hash = 14695981039346656037u;
   for (const auto* list : {&p.id, &p.tiles.start})

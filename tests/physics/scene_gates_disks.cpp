@@ -88,7 +88,7 @@ class NormalForces {
       const NodeCracks& n = f.nodes[i];
       if (f.held[i] != 1)
         continue;
-      const Meeting meeting = neighbour_meeting(n, m.state.cracks.contact.data(), 0, 0, 1);
+      const Meeting meeting = neighbour_meeting(n, f.normals[i], m.state.cracks.contact.data(), 0, 0, 1);
       const long slot = meeting.below == 0 ? n.node : long{g.lattice.nodes()} + n.extra;
       if (g.mass[slot] > 0)
         p[static_cast<size_t>(i)] = g.mass[slot] * dot(meeting.normal, Vec2{g.q[4 * slot], g.q[4 * slot + 1]});
@@ -167,8 +167,10 @@ TwoDisks run_two_disks(const std::vector<std::string>& settings, bool volumes = 
     forces.emplace(m);
   if (volumes)
     insert_task(m, "contact before", false, [](Simulation& s) {
-      contact_sums(s.space, s.plan.shape, {.volume = true}, s.state.particles, s.state.domains, s.state.specific_area,
-                   s.state.grid, s.state.fields, s.state.cracks, s.scene.thickness, s.contact_sums);
+      contact_sums<double>(
+          s.space, {.volume = true},
+          {s.plan.shape, s.state.particles, s.state.domains, s.state.specific_area, s.state.watch.drift}, s.state.grid,
+          s.state.fields, s.state.cracks, s.scene.thickness, s.contact_sums);
     });
   const std::vector<int> mirror = mirror_ids(m.state.particles, scene.cell);
   TwoDisks r;

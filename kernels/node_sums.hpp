@@ -1,0 +1,125 @@
+// The sums of contact_sums.hpp for one node, from the particles in the cells around it.
+//
+// Most nodes beside cracks never ask: faces that part do not touch, whatever their gap. So a node sums when it is first
+// asked in a step, in the order of its particles: the same bits whoever asks, and when.
+#pragma once
+#include "core/math/quad.hpp"
+#include "core/math/shape.hpp"
+#include "core/plan/plan.hpp"
+#include "core/state/bodies.hpp"
+#include "core/state/crack_fields.hpp"
+#include "core/state/grid.hpp"
+#include "core/state/particles.hpp"
+#include "kernels/block.hpp"
+
+namespace riven {
+
+/// What contact knows of particles.
+template <class Real>
+struct ContactParticles {
+  ShapeFunction shape;
+  const Particles<Real, 2>& particles;
+  const exec::Array<DomainSetting<Real, 2>>& domains;  ///< [bodies]
+  const exec::Array<double>& specific_area;            ///< [bodies] first area, m^2 per kg: 1 / (density thickness)
+  double drift;                                        ///< StepWatch::drift
+};
+
+/// The same as a kernel sees it, and where the sums of a node go; null where not asked for.
+template <class Real>
+struct NodeSums {
+  ShapeFunction shape;
+  Lattice lattice;
+  Positions<Real> at;
+  const Real *X, *Y, *mass, *J;
+  const Real* F[4];
+  const std::uint8_t* body;
+  const double* specific_area;
+  const int* cell_start;        ///< Tiles::cell_start
+  const std::uint32_t* fields;  ///< CrackFields::fields
+  double reach;            ///< cells between a node and the place where a particle that it sees was sorted, at most
+  double *place, *volume;  ///< ContactSums
+  std::uint8_t* known;     ///< ContactSums
+
+  /// Area of a particle over its first area.
+  RIVEN_INLINE double area_ratio(long i) const {
+    return J ? double(J[i]) : double(F[0][i]) * F[3][i] - double(F[1][i]) * F[2][i];
+  }
+
+  /// f(first, last) for the stretches of particles that were sorted into the cells around node (I, K).
+  template <class Shape, class Visit>
+  RIVEN_INLINE void each_stretch_around(int I, int K, const Visit& f) const {
+    const int left = std::max(Shape::cell(I - reach), 0), right = std::min(Shape::cell(I + reach), lattice.nx - 1);
+    const int low = std::max(Shape::cell(K - reach), 0), high = std::min(Shape::cell(K + reach), lattice.ny - 1);
+    for (int j = low; j <= high; ++j)
+      for (int i = left, end = i; i <= right; i = end + 1) {
+        end = std::min(right, i | (Lattice::tile - 1));  // cells of one tile follow each other
+        f(cell_start[lattice.sorted_cell(i, j)], cell_start[lattice.sorted_cell(end, j) + 1]);
+      }
+  }
+
+  /// f(p, a, b) for the particles that see node (I, K), as the a-th of their nodes along x and the b-th along y.
+  template <class Shape, class Visit>
+  RIVEN_INLINE void each_particle_around(int I, int K, const Visit& f) const {
+    constexpr int N = Shape::width, before = N == 3;
+    each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
+      for (int p = first; p < last; ++p) {
+        const int a = I - Shape::cell((at.x[p] - at.origin_x) * at.inv_h) + before;
+        const int b = K - Shape::cell((at.y[p] - at.origin_y) * at.inv_h) + before;
+        if (static_cast<unsigned>(a) < N && static_cast<unsigned>(b) < N)
+          f(p, a, b);
+      }
+    });
+  }
+
+  /// Asks for the particles around node (I, K), all at once: no pass before has left them near at hand.
+  template <class Shape>
+  RIVEN_INLINE void prefetch_around(int I, int K) const {
+    each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
+      for (int p = first; p < last; p += static_cast<int>(64 / sizeof(Real))) {
+        for (const Real* array : {at.x, at.y, mass, X, Y})
+          exec::prefetch(array + p);
+        exec::prefetch(fields + p);
+      }
+    });
+  }
+
+  template <class Shape>
+  RIVEN_ONCE void sum_as(const NodeCracks& n) const {
+    const Vec2 node = lattice.position(n.node);
+    const int I = n.node % lattice.nx, K = n.node / lattice.nx;
+    prefetch_around<Shape>(I, K);
+    Quad<double> places[4]{};
+    double areas[4]{};
+    each_particle_around<Shape>(I, K, [&](int p, int a, int b) RIVEN_LANE {
+      const DomainSetting<Real, 2>& d = at.domain.of(p);
+      const double S = double(Shape::axis((at.x[p] - at.origin_x) * at.inv_h, d.axis[0]).s[a]) *
+                       double(Shape::axis((at.y[p] - at.origin_y) * at.inv_h, d.axis[1]).s[b]);
+      const int field = CrackFields::field_of(fields[p], b * Shape::width + a);
+      if (place)
+        places[field] += (mass[p] * S) * Quad<double>{at.x[p] - node.x, at.y[p] - node.y, X[p] - node.x, Y[p] - node.y};
+      if (volume)
+        areas[field] += mass[p] * specific_area[body[p]] * area_ratio(p) * S;
+    });
+    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+      const long slot = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
+      if (place)
+        quad_at<double>(place + 4 * slot) = places[f];
+      if (volume)
+        volume[slot] = areas[f];
+    }
+  }
+
+  /// Sees to it that the sums of node CrackFields::nodes[f], which is n, are known.
+  RIVEN_INLINE void ask(long f, const NodeCracks& n) const {
+    if (!known || known[f])
+      return;
+    known[f] = 1;
+    switch (shape) {
+      case ShapeFunction::linear: return sum_as<Linear>(n);
+      case ShapeFunction::ugimp: return sum_as<UGimp>(n);
+      case ShapeFunction::bspline: return sum_as<BSpline>(n);
+    }
+  }
+};
+
+}  // namespace riven
