@@ -59,7 +59,9 @@ size_t entry_of(const toml::array& array, const std::string& part, const std::st
       names.push_back(name);
   }
   const std::string near = nearest(part, names);
-  std::string allowed = array.empty() ? "the array is empty" : "0 to " + std::to_string(array.size() - 1);
+  std::string allowed = array.empty()       ? "the array is empty"
+                        : array.size() == 1 ? "number 0"
+                                            : "numbers 0 to " + std::to_string(array.size() - 1);
   if (!names.empty())
     allowed += ", or " + listed(names);
   fail({Exit::bad_input, "there is no entry '" + shown(part) + "'", shown(source), "", allowed,
