@@ -3,6 +3,8 @@
 // Most nodes beside cracks never ask: faces that part do not touch, whatever their gap. So a node sums when it is first
 // asked in a step, in the order of its particles: the same bits whoever asks, and when.
 #pragma once
+#include <algorithm>
+
 #include "core/math/quad.hpp"
 #include "core/math/shape.hpp"
 #include "core/plan/plan.hpp"
@@ -76,15 +78,18 @@ struct NodeSums {
   RIVEN_INLINE void prefetch_around(int I, int K) const {
     each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
       for (int p = first; p < last; p += static_cast<int>(64 / sizeof(Real))) {
-        for (const Real* array : {at.x, at.y, mass, X, Y})
-          exec::prefetch(array + p);
+        exec::prefetch(at.x + p);
+        exec::prefetch(at.y + p);
+        exec::prefetch(mass + p);
+        exec::prefetch(X + p);
+        exec::prefetch(Y + p);
         exec::prefetch(fields + p);
       }
     });
   }
 
   template <class Shape>
-  RIVEN_ONCE void sum_as(const NodeCracks& n) const {
+  RIVEN_FN RIVEN_ONCE void sum_as(const NodeCracks& n) const {
     const Vec2 node = lattice.position(n.node);
     const int I = n.node % lattice.nx, K = n.node / lattice.nx;
     prefetch_around<Shape>(I, K);

@@ -57,6 +57,9 @@ RIVEN_INLINE void each_particle(const Stretch& stretch, long first, int count, c
 
 namespace detail {
 
+/// Blocks without a crossing particle that a crossed stretch passes over rather than end: a call costs more.
+inline constexpr long gap = 1;
+
 /// Compiled once for each body and kind of stretch, whoever calls it.
 template <class Body, class Stretch, class... More>
 RIVEN_ONCE void run_stretch(const Body& body, Stretch stretch, long first, long last, More&... more) {
@@ -71,18 +74,26 @@ RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, lon
   if (!e.tile_marked || e.tile_marked[tile] == 0)
     return run_stretch(body, Uncrossed{}, first, last, more...);
   long block = CrackFields::block_of(first, e.tile_marked[tile] - 1);
-  while (first < last) {
+  const long blocks = block + (last - first + exec::lanes - 1) / exec::lanes;
+  while (block < blocks) {
     const bool crossed = e.crossing[block] != 0;
     const Crossed stretch{first, e.crossing + block, e.block_slots + block, e.slots};
-    long end = first;
-    for (; end < last && (e.crossing[block] != 0) == crossed; ++block)
-      end += exec::lanes;
-    end = std::min(end, last);
+    long stop = block + 1;
+    if (crossed) {
+      for (long next = stop; next < blocks && next <= stop + gap; ++next)
+        if (e.crossing[next] != 0)
+          stop = next + 1;
+    } else {
+      while (stop < blocks && e.crossing[stop] == 0)
+        ++stop;
+    }
+    const long end = std::min(first + (stop - block) * exec::lanes, last);
     if (crossed)
       run_stretch(body, stretch, first, end, more...);
     else
       run_stretch(body, Uncrossed{}, first, end, more...);
     first = end;
+    block = stop;
   }
 }
 
