@@ -93,7 +93,7 @@ void apply_loads(const Plan& plan, State<Real, 2>& s) {
         const DomainSetting<Real, 2>& d = s.domains[p.body[i]];
         const auto a = Shape::axis(Real((x.x - l.origin.x) / l.h), d.axis[0]);
         const auto b = Shape::axis(Real((x.y - l.origin.y) / l.h), d.axis[1]);
-        const std::uint32_t word = s.fields.fields.empty() ? 0 : s.fields.fields[i];
+        const std::uint32_t word = s.fields.extra.empty() ? 0 : s.fields.fields[i];
         for (int j = 0; j < Shape::width; ++j)
           for (int m = 0; m < Shape::width; ++m) {
             const int node = (b.base + j) * l.nx + a.base + m;

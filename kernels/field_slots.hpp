@@ -19,7 +19,7 @@ struct FieldSlots {
     return start_[i + 1] - start_[i] > 1 ? 4 : 2;
   }
   RIVEN_INLINE long of(int node, int field) const {
-    return field == 0 ? node : long{nodes_} + extra_[node] + field - 1;
+    return field == 0 || !extra_ ? node : long{nodes_} + extra_[node] + field - 1;
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/crack_opening.hpp"
 #include "io/read_scene.hpp"
 #include "kernels/simulation.hpp"
 
@@ -39,6 +40,14 @@ inline void insert_task(Simulation& m, const std::string& label, bool after, std
   const auto at = std::find_if(m.tasks.begin(), m.tasks.end(), [&](const Task& t) { return t.label == label; });
   ASSERT_NE(at, m.tasks.end()) << label;
   m.tasks.insert(after ? at + 1 : at, Task{"test", "", std::move(run)});
+}
+
+/// Largest overlap of the faces of any crack, m.
+inline double overlap(const Cracks& cracks) {
+  double most = 0;
+  for (const CrackOpening& o : crack_openings(cracks))
+    most = std::max(most, -o.normal);
+  return most;
 }
 
 }  // namespace riven::gates
