@@ -7,9 +7,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/math/shape.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
@@ -19,8 +17,15 @@ namespace riven {
 
 namespace detail {
 
-/// Nodes beyond a wall count as any other.
-inline constexpr AxisSetting<double> no_walls{0, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+/// Values of the quadratic B-splines of the three nodes around X.
+struct SplineWeights {
+  int base;
+  double s[3];
+};
+RIVEN_INLINE SplineWeights spline_weights(double X) {
+  const double nearest = std::floor(X + 0.5), r = X - nearest;
+  return {static_cast<int>(nearest) - 1, {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)}};
+}
 
 /// Normal of the segment a-b times its length, from above to below.
 RIVEN_INLINE Vec2 weighted_normal(Vec2 a, Vec2 b) {
@@ -45,7 +50,7 @@ inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, Cra
     const Vec2 n0 = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]) * (1. / pieces);
     for (int piece = 0; piece < pieces; ++piece) {
       const Vec2 X = a + ((piece + 0.5) / pieces) * d;
-      const auto x = BSpline::axis(X.x, detail::no_walls), y = BSpline::axis(X.y, detail::no_walls);
+      const detail::SplineWeights x = detail::spline_weights(X.x), y = detail::spline_weights(X.y);
       if (x.base < 0 || y.base < 0 || x.base + 3 > lattice.nx || y.base + 3 > lattice.ny)
         continue;
       for (int j = 0; j < 3; ++j)
@@ -72,7 +77,8 @@ inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f,
   NodeNormals& normals = fields.normals[f];
   for (int m = 0; m < fields.held[f]; ++m) {
     const double least = 1e-9 * lattice.h;
-    if (!(norm(normals.now[m]) > least && norm(normals.first[m]) > least)) {
+    if (!(dot(normals.now[m], normals.now[m]) > least * least &&
+          dot(normals.first[m], normals.first[m]) > least * least)) {
       int c = fields.candidate_start[f];
       while (fields.candidate[c] != node.crack[m])
         ++c;

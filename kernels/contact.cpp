@@ -336,7 +336,16 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   const std::uint8_t* held = fields.held.data();
   const ContactSettings* laws = cracks.contact.data();
   const Lattice lattice = grid.lattice;
+  const long count = fields.nodes.size();
+  constexpr long ahead = 8;
   report += exec::parallel_sum<ContactReport>(space, label, fields.nodes.size(), [=](long i, ContactReport& sum) {
+    if (i + ahead < count && held[i + ahead] != 0) {
+      const NodeCracks& next = nodes[i + ahead];
+      for (const long slot : {long{next.node}, long{lattice.nodes()} + next.extra}) {
+        exec::prefetch(motion.mass + slot);
+        exec::prefetch(motion.data + 4 * slot);
+      }
+    }
     if (held[i] == 0)
       return;
     const NodeCracks& n = nodes[i];

@@ -59,20 +59,6 @@ struct NodeSums {
       }
   }
 
-  /// f(p, a, b) for the particles that see node (I, K), as the a-th of their nodes along x and the b-th along y.
-  template <class Shape, class Visit>
-  RIVEN_INLINE void each_particle_around(int I, int K, const Visit& f) const {
-    constexpr int N = Shape::width, before = N == 3;
-    each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
-      for (int p = first; p < last; ++p) {
-        const int a = I - Shape::cell((at.x[p] - at.origin_x) * at.inv_h) + before;
-        const int b = K - Shape::cell((at.y[p] - at.origin_y) * at.inv_h) + before;
-        if (static_cast<unsigned>(a) < N && static_cast<unsigned>(b) < N)
-          f(p, a, b);
-      }
-    });
-  }
-
   /// Asks for the particles around node (I, K), all at once: no pass before has left them near at hand.
   template <class Shape>
   RIVEN_INLINE void prefetch_around(int I, int K) const {
@@ -95,15 +81,23 @@ struct NodeSums {
     prefetch_around<Shape>(I, K);
     Quad<double> places[4]{};
     double areas[4]{};
-    each_particle_around<Shape>(I, K, [&](int p, int a, int b) RIVEN_LANE {
-      const DomainSetting<Real, 2>& d = at.domain.of(p);
-      const double S = double(Shape::axis((at.x[p] - at.origin_x) * at.inv_h, d.axis[0]).s[a]) *
-                       double(Shape::axis((at.y[p] - at.origin_y) * at.inv_h, d.axis[1]).s[b]);
-      const int field = CrackFields::field_of(fields[p], b * Shape::width + a);
-      if (place)
-        places[field] += (mass[p] * S) * Quad<double>{at.x[p] - node.x, at.y[p] - node.y, X[p] - node.x, Y[p] - node.y};
-      if (volume)
-        areas[field] += mass[p] * specific_area[body[p]] * area_ratio(p) * S;
+    Block<Real, Shape> w;
+    each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
+      for (; first < last; first += exec::lanes) {
+        w.weigh(at, first);
+        for (int k = 0; k < std::min(exec::lanes, last - first); ++k) {
+          const int p = first + k, a = I - w.ix[k], b = K - w.iy[k];
+          if (static_cast<unsigned>(a) >= Shape::width || static_cast<unsigned>(b) >= Shape::width)
+            continue;
+          const double S = double(w.sx[a][k]) * double(w.sy[b][k]);
+          const int field = CrackFields::field_of(fields[p], b * Shape::width + a);
+          if (place)
+            places[field] +=
+                (mass[p] * S) * Quad<double>{at.x[p] - node.x, at.y[p] - node.y, X[p] - node.x, Y[p] - node.y};
+          if (volume)
+            areas[field] += mass[p] * specific_area[body[p]] * area_ratio(p) * S;
+        }
+      }
     });
     for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
       const long slot = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
