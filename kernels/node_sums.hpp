@@ -67,9 +67,11 @@ struct NodeSums {
         exec::prefetch(at.x + p);
         exec::prefetch(at.y + p);
         exec::prefetch(mass + p);
-        exec::prefetch(X + p);
-        exec::prefetch(Y + p);
         exec::prefetch(fields + p);
+        if (place) {
+          exec::prefetch(X + p);
+          exec::prefetch(Y + p);
+        }
       }
     });
   }
