@@ -159,9 +159,9 @@ std::vector<Group> throughput_groups() {
       {"large", "the same with 1,440,000 particles, beyond the caches", 10, 50, 3,
        [] { return std::vector{swirling("large", 600)}; }},
       {"methods", "stress updates, transfers, shape functions and scatter on the block", 20, 50, 5, methods},
-      {"sent", "plate with two crossing cracks (H and V), 80,000 particles, frictionless contact", 60, 60, 9,
+      {"sent", "plate with two crossing cracks (H and V), 80,000 particles, frictionless contact", 60, 10, 55,
        [] { return pulled(sent()); }},
-      {"many", "plate with 200 cracks, 160,000 particles, frictionless contact", 40, 40, 7,
+      {"many", "plate with 200 cracks, 160,000 particles, frictionless contact", 40, 8, 35,
        [] { return pulled(many()); }},
   };
 }
