@@ -1,10 +1,10 @@
 #include "kernels/assign_fields.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <climits>
 #include <utility>
 
-#include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/average_normals.hpp"
@@ -26,7 +26,7 @@ void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
 }
 
 /// Which cracks a node holds, and what a crossing of each entry means. Returns whether that has changed.
-bool hold_cracks(const Lattice& lattice, CrackFields& fields, long f) {
+bool hold_cracks(CrackFields& fields, long f) {
   NodeCracks& node = fields.nodes[f];
   const int first = fields.candidate_start[f], last = fields.candidate_start[f + 1];
   int most[2] = {-1, -1}, count[2] = {0, 0};
@@ -67,10 +67,6 @@ bool hold_cracks(const Lattice& lattice, CrackFields& fields, long f) {
     }
   }
   node = now;
-  if ((held > 0) != (fields.held[f] > 0))
-    each_cell_seeing(lattice, node.node, [&](long cell) {
-      exec::atomic_add(fields.cell_held[cell], static_cast<std::uint8_t>(held > 0 ? 1 : -1));
-    });
   fields.held[f] = static_cast<std::uint8_t>(held);
   return changed;
 }
@@ -171,7 +167,7 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
   exec::parallel_for(space, "assign fields", fields.nodes.size(), [&](long f) {
     if (fields.recount[f]) {
       fields.recount[f] = 0;
-      if (hold_cracks(lattice, fields, f))
+      if (hold_cracks(fields, f))
         mark_changed(lattice, fields.nodes[f].node, fields);
     }
     fields.normals[f] = {};

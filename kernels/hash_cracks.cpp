@@ -189,8 +189,6 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   fields.verdict.resize(fields.tally.size());
   fields.held.resize(fields.nodes.size());
   fields.held.zero();
-  fields.cell_held.resize(lattice.nodes());
-  fields.cell_held.zero();
   fields.recount.resize(fields.nodes.size());
   fields.clearance.resize(fields.nodes.size());
   fields.hashed = cracks.plane;

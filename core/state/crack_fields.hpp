@@ -90,16 +90,15 @@ struct CrackFields {
   exec::Array<int> marked_tiles;      ///< tiles whose particles may see a crack, ascending
   exec::Array<int> tile_crack_start;  ///< [marked tiles + 1] CSR of the cracks that such particles may see
   exec::Array<int> tile_crack;
-  exec::Array<int> node_index;          ///< [nodes] index into `nodes`, or -1
-  exec::Array<NodeCracks> nodes;        ///< [flagged] every node that may see a crack, in ascending node number
-  exec::Array<NodeNormals> normals;     ///< [flagged]
-  exec::Array<std::uint8_t> held;       ///< [flagged] how many cracks the node holds
-  exec::Array<std::uint8_t> cell_held;  ///< [nodes] how many such nodes a cell and its neighbours have
-  exec::Array<int> candidate_start;     ///< [flagged + 1] CSR of the cracks that each such node may see
-  exec::Array<int> candidate;           ///< crack numbers, ascending within a node
-  exec::Array<int> segment_start;       ///< [candidates + 1] CSR of the segments of this crack that the node may see
-  exec::Array<int> node_segment;        ///< first points of these, ascending
-  exec::Array<int> extra;               ///< [nodes] see grid.hpp
+  exec::Array<int> node_index;       ///< [nodes] index into `nodes`, or -1
+  exec::Array<NodeCracks> nodes;     ///< [flagged] every node that may see a crack, in ascending node number
+  exec::Array<NodeNormals> normals;  ///< [flagged]
+  exec::Array<std::uint8_t> held;    ///< [flagged] how many cracks the node holds
+  exec::Array<int> candidate_start;  ///< [flagged + 1] CSR of the cracks that each such node may see
+  exec::Array<int> candidate;        ///< crack numbers, ascending within a node
+  exec::Array<int> segment_start;    ///< [candidates + 1] CSR of the segments of this crack that the node may see
+  exec::Array<int> node_segment;     ///< first points of these, ascending
+  exec::Array<int> extra;            ///< [nodes] see grid.hpp
   int extra_slots = 0;
   exec::Array<Vec2> hashed;  ///< [points] crack points when the hash was made
 

@@ -70,13 +70,6 @@ Setting make_setting(const std::vector<Line>& lines, const Map& map, const Map& 
     p.x0[0][i] = X[static_cast<size_t>(p.id[i])].x;
     p.x0[1][i] = X[static_cast<size_t>(p.id[i])].y;
   }
-  for (int colour = 0; colour < 4; ++colour) {
-    for (int t = 0; t < s.lattice.tiles_x() * s.lattice.tiles_y(); ++t)
-      if (t % s.lattice.tiles_x() % 2 + 2 * (t / s.lattice.tiles_x() % 2) == colour &&
-          p.tiles.start[t] < p.tiles.start[t + 1])
-        p.tiles.by_colour.push_back(t);
-    p.tiles.colour_start[colour + 1] = static_cast<int>(p.tiles.by_colour.size());
-  }
   s.domains.resize(1);
   s.domains[0] = quarter_cells(s.lattice);
   s.specific_area.resize(1);
