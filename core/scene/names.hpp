@@ -40,6 +40,12 @@ RIVEN_NAMES(ContactDetection, {{ContactDetection::volume, "volume"},
                                {ContactDetection::velocity, "velocity"},
                                {ContactDetection::displacement, "displacement"}})
 RIVEN_NAMES(Sidecar, {{Sidecar::none, "none"}, {Sidecar::vtp, "vtp"}})
+RIVEN_NAMES(JMethod, {{JMethod::pijc, "pijc"}, {JMethod::fijc, "fijc"}, {JMethod::fijc_adaptive, "fijc_adaptive"}})
+RIVEN_NAMES(AreaTerm, {{AreaTerm::automatic, "automatic"}, {AreaTerm::never, "never"}, {AreaTerm::always, "always"}})
+RIVEN_NAMES(GrowthCriterion, {{GrowthCriterion::k_max, "k_max"}, {GrowthCriterion::critical_j, "critical_j"}})
+RIVEN_NAMES(GrowthDirection, {{GrowthDirection::hoop, "hoop"},
+                              {GrowthDirection::self_similar, "self_similar"},
+                              {GrowthDirection::fixed, "fixed"}})
 RIVEN_NAMES(Load::Edge, {{Load::Edge::left, "left"},
                          {Load::Edge::right, "right"},
                          {Load::Edge::bottom, "bottom"},

@@ -33,6 +33,10 @@ enum class SurfaceUpdate { xpic, flip, pic };         ///< how the crack surface
 enum class ContactLaw { ignored, bonded, stick, frictionless, coulomb, interface };
 enum class ContactDetection { volume, velocity, displacement };  ///< displacement: velocity and displacement
 enum class Sidecar { none, vtp };
+enum class JMethod { pijc, fijc, fijc_adaptive };  ///< what J does where other cracks cross the contour
+enum class AreaTerm { automatic, never, always };  ///< automatic: for contours of more than 10 cells
+enum class GrowthCriterion { k_max, critical_j };
+enum class GrowthDirection { hoop, self_similar, fixed };
 
 // ---- shapes of bodies and regions ---------------------------------------------------------------------------
 
@@ -122,11 +126,31 @@ struct ContactRules {
   double v_contact = 1.1;  ///< above it they touch
 };
 
+/// How J and K are found at the tips of cracks (Nairn and Aimene, section 2.2.2).
+struct FractureRules {
+  bool asked = false;  ///< J and K at every tip; growth asks for them, too
+  JMethod method = JMethod::fijc_adaptive;
+  int contour = 4;  ///< edge of the square contour, cells; even
+  AreaTerm area = AreaTerm::automatic;
+  bool interaction = true;  ///< K by the interaction integral, too, whenever J is reported
+};
+
+/// When and where a crack grows.
+struct GrowthRule {
+  GrowthCriterion criterion = GrowthCriterion::k_max;
+  double toughness = 0;  ///< K_Ic, Pa m^0.5 (k_max), or J_Ic, J/m^2 (critical_j)
+  GrowthDirection direction = GrowthDirection::hoop;
+  Vec2 heading;            ///< direction = fixed
+  double speed_limit = 0;  ///< m/s; 0 means the Rayleigh speed
+};
+
 struct CrackLine {
   std::string name;
   std::vector<Vec2> points;
   double resolution = 0;                   ///< greatest segment length, m; 0 means the particle size
   std::optional<ContactSettings> contact;  ///< its own law instead of the scene's
+  std::optional<GrowthRule> growth;        ///< its own rule instead of the scene's
+  bool grows = true;                       ///< false: stays as it is where the scene's cracks grow
 };
 
 /// A named result read from the fields at the end and at each history row.
@@ -195,6 +219,8 @@ struct Scene {
   ContactRules contact_rules;
   CrackMotion crack_motion = CrackMotion::surfaces;
   SurfaceUpdate surface_update = SurfaceUpdate::xpic;
+  FractureRules fracture;
+  std::optional<GrowthRule> growth;  ///< of all cracks that do not say otherwise
 
   std::vector<Probe> probes;
   Output output;

@@ -14,6 +14,7 @@
 #include "core/state/ledger.hpp"
 #include "core/state/loads.hpp"
 #include "core/state/particles.hpp"
+#include "core/state/tips.hpp"
 
 namespace riven {
 
@@ -51,6 +52,7 @@ struct State {
   Grid<Real> grid;
   Cracks cracks;
   CrackFields fields;
+  std::vector<Tip> tips;
   LawTables<Real> laws;
   exec::Array<DomainSetting<Real, Dim>> domains;  ///< [bodies]
   exec::Array<double> specific_area;              ///< [bodies] first area of particles, m^2 per kg
