@@ -28,6 +28,29 @@ struct Cracks {
 
   int count() const { return static_cast<int>(names.size()); }
   int points() const { return start.back(); }
+
+  /// f(array) for every array that holds one entry per point and exists; f takes them const or not, as the cracks are.
+  template <class F>
+  void each_point_array(F&& f) {
+    each_point_array(*this, f);
+  }
+  template <class F>
+  void each_point_array(F&& f) const {
+    each_point_array(*this, f);
+  }
+
+ private:
+  template <class Self, class F>
+  static void each_point_array(Self& self, F&& f) {
+    const auto some = [&](auto& a) {
+      if (!a.empty())
+        f(a);
+    };
+    some(self.crack);
+    for (auto* a :
+         {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0, &self.jump})
+      some(*a);
+  }
 };
 
 /// Cuts each line of the scene into equal segments no longer than its resolution (m; where it says none,

@@ -162,8 +162,14 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("grid: momentum and force", s.grid.q);
   add("grid: second extrapolation", s.grid.again);
   add("grid: higher orders", s.grid.high, s.grid.term, s.grid.next);
-  add("cracks: points", s.cracks.crack, s.cracks.plane, s.cracks.upper, s.cracks.lower, s.cracks.upper_velocity,
-      s.cracks.lower_velocity, s.cracks.plane0, s.cracks.jump, f.hashed, f.traced, f.crack_move);
+  ArrayReport points{"cracks: points", 0, 0};
+  s.cracks.each_point_array([&](const auto& a) {
+    points.items += a.size();
+    points.bytes += a.bytes();
+  });
+  if (points.items > 0)
+    list.push_back(points);
+  add("cracks: motion", f.hashed, f.traced, f.crack_move);
   add("cracks: crossings", f.records, f.limit, f.block_limit, f.tiles);
   add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
       f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.held, f.candidate_start,
