@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/names.hpp"
+#include "core/state/make_tips.hpp"
 
 namespace riven {
 
@@ -61,6 +62,9 @@ Plan make_plan(const Scene& scene) {
           scene.contact_rules.detection == ContactDetection::displacement || law == ContactLaw::interface;
     }
   }
+  for (int c = 0; c < static_cast<int>(scene.cracks.size()); ++c)
+    p.growth |= growth_rule(scene, c) != nullptr;
+  p.fracture = p.growth || (p.cracks && scene.fracture.asked);
   p.grips = !scene.grips.empty();
   p.constraints = p.grips || !scene.fixed.empty() || !scene.symmetry.empty();
   p.loads = !scene.loads.empty();
@@ -81,6 +85,8 @@ std::vector<std::string> Plan::effects() const {
   say(cracks, "cracks");
   say(contact, "contact");
   say(contact_area, "imperfect interface");
+  say(fracture, "J");
+  say(growth, "growth");
   say(grips, "grips");
   say(constraints && !grips, "fixed nodes");
   say(loads, "loads");

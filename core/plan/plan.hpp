@@ -25,6 +25,8 @@ struct Plan {
   bool contact_volume = false;    ///< detection by volume, or interpenetration statistics, asks for nodal volumes
   bool contact_position = false;  ///< detection by displacement, or an interface law, asks for positions
   bool contact_area = false;      ///< an interface law asks for the length of crack at each node
+  bool fracture = false;          ///< J and K at every tip
+  bool growth = false;            ///< some crack grows
   bool grips = false;
   bool constraints = false;  ///< any prescribed grid velocity: grips, fixed nodes, symmetry
   bool loads = false;

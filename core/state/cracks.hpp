@@ -9,6 +9,15 @@
 
 namespace riven {
 
+/// The end of a crack that has joined another, or itself: a point of that crack's plane, with which it moves.
+struct Junction {
+  int crack = 0;
+  bool last = false;  ///< which end of it
+  int other = 0;      ///< the crack on which it lies
+  int segment = 0;    ///< of that crack, counted from its first point
+  double along = 0;   ///< from 0 to 1 between the ends of that segment
+};
+
 /// Crack c owns the points [start[c], start[c+1]); its segments join neighbouring points. Walking from the
 /// first point to the last, "above" is the left-hand side: the signed area (p, a, b) of a particle p above the
 /// segment a-b is positive. The normal points from above to below (Nairn 2003, section 2.2).
@@ -25,6 +34,30 @@ struct Cracks {
   /// [points] of the segment that starts at a point: jump of displacement across an imperfect interface, along the
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
+  std::vector<Junction> junctions;
+
+  /// f(array) for every array that holds one entry per point and exists.
+  template <class F>
+  void each_point_array(F&& f) {
+    const auto some = [&](auto& a) {
+      if (!a.empty())
+        f(a);
+    };
+    some(crack);
+    some(plane);
+    some(upper);
+    some(lower);
+    some(upper_velocity);
+    some(lower_velocity);
+    some(plane0);
+    some(jump);
+  }
+
+  /// The point at an end of a crack, and the one next to it.
+  int end_point(int c, bool last) const {
+    return last ? start[static_cast<size_t>(c) + 1] - 1 : start[static_cast<size_t>(c)];
+  }
+  int next_to_end(int c, bool last) const { return end_point(c, last) + (last ? -1 : 1); }
 
   int count() const { return static_cast<int>(names.size()); }
   int points() const { return start.back(); }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/state/lay_points.hpp"
+#include "core/state/make_tips.hpp"
 
 namespace riven {
 
@@ -118,6 +119,8 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     s.cracks = make_cracks(scene, finest);
     s.fields.fields.resize(n);
   }
+  if (plan.fracture)
+    s.tips = make_tips(scene);
   size_grid(plan, s);
 }
 

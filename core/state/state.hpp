@@ -52,7 +52,8 @@ struct State {
   Grid<Real> grid;
   Cracks cracks;
   CrackFields fields;
-  std::vector<Tip> tips;
+  std::vector<Tip> tips;           ///< where the plan asks for J
+  std::vector<CrackEvent> events;  ///< so far, in order of time
   LawTables<Real> laws;
   exec::Array<DomainSetting<Real, Dim>> domains;  ///< [bodies]
   exec::Array<double> specific_area;              ///< [bodies] first area of particles, m^2 per kg

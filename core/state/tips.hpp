@@ -1,16 +1,24 @@
 // Tips: the ends of cracks that lie in a solid, and what was found there last.
+//
+// K_I > 0 opens the crack. K_II > 0: the side to the left of the direction of growth slides that way against the other.
 #pragma once
+#include "core/math/vec.hpp"
 
 namespace riven {
 
 struct Tip {
   int crack = 0;
-  bool last = false;    ///< which end of the crack's points it is
-  bool open = true;     ///< false once it has left the solid or joined another crack
-  int material = 0;     ///< of the solid around it, index into Scene::materials
-  double length = 0;    ///< m, by which it has grown
-  double speed = 0;     ///< m/s, at which it grew last; 0 once it has arrested
-  double released = 0;  ///< J, by its growth
+  bool last = false;     ///< which end of the crack's points it is
+  bool open = true;      ///< false once it has left the solid or joined another crack
+  bool grows = false;    ///< its crack has a rule by which to grow
+  int body = 0;          ///< the one around it, index into Scene::bodies
+  int material = 0;      ///< of that body, index into Scene::materials
+  double length = 0;     ///< m, by which it has grown
+  bool running = false;  ///< it has grown lately
+  double speed = 0;      ///< m/s, mean over its last segments; 0 while it rests
+  double released = 0;   ///< J, by its growth
+  long due = 0;          ///< Clock::step at which it is checked for growth next
+  double grew = 0;       ///< s, time at which it grew last
 
   // the last evaluation of J
   long step = -1;               ///< Clock::step of it
@@ -22,6 +30,21 @@ struct Tip {
   bool adapted = false;         ///< the contour leaves out the tip of another crack
   bool crossed = false;         ///< another crack crosses the contour
   bool sound = true;            ///< false: no contour was found that J can be trusted on (a warning was counted)
+};
+
+/// Something that happened at a tip.
+struct CrackEvent {
+  enum class Kind { start, arrest, join, exit, meet };
+  Kind kind = Kind::start;
+  long step = 0;
+  double time = 0;  ///< s
+  int crack = 0;
+  bool last = false;  ///< which end
+  Vec2 place;         ///< m
+  int other = -1;     ///< the crack that was joined or met
+  double J = 0;       ///< J/m^2
+  double K_I = 0, K_II = 0;
+  double speed = 0;  ///< m/s
 };
 
 }  // namespace riven

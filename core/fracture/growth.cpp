@@ -1,0 +1,52 @@
+#include "core/fracture/growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riven {
+
+HoopStress greatest_hoop_stress(double K_I, double K_II) {
+  const double root = std::sqrt(K_I * K_I + 8 * K_II * K_II);
+  // the same half angle twice, each where nothing cancels
+  const double half = K_I >= 0 || K_II == 0 ? std::atan2(-2 * K_II, std::fabs(K_I) + root)
+                                            : std::atan2((K_I - root) * (K_II > 0 ? 1 : -1), 4 * std::fabs(K_II));
+  const double c = std::cos(half), s = std::sin(half);
+  return {2 * half, c * c * (K_I * c - 3 * K_II * s)};
+}
+
+double rayleigh_speed(const Material& m, Plane plane) {
+  const double shear = std::sqrt(m.E / (2 * (1 + m.nu) * m.density));
+  const double ratio2 = plane == Plane::strain ? (1 - 2 * m.nu) / (2 * (1 - m.nu)) : (1 - m.nu) / 2;  // (c_s / c_d)^2
+  // the equation squared, over c^2/c_s^2 =: x, has one root in (0, 1)
+  const auto f = [&](double x) { return ((x - 8) * x + 24 - 16 * ratio2) * x - 16 * (1 - ratio2); };
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < 0 ? low : high) = middle;
+  }
+  return shear * std::sqrt(high);
+}
+
+long check_interval(double particle, double speed_limit, double dt) {
+  // the allowance keeps a whole number of steps but for rounding
+  return std::max(1L, static_cast<long>(particle / (speed_limit * dt) * (1 + 1e-9)));
+}
+
+std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
+  const HoopStress hoop = greatest_hoop_stress(tip.K_I, tip.K_II);
+  const double K2 = tip.K_I * tip.K_I + tip.K_II * tip.K_II;
+  const double J = tip.K_I < 0 && K2 > 0 ? tip.J * tip.K_II * tip.K_II / K2 : tip.J;
+  if (!((rule.criterion == GrowthCriterion::k_max ? hoop.K : J) >= rule.toughness))
+    return std::nullopt;
+  switch (rule.direction) {
+    case GrowthDirection::self_similar: return ahead;
+    case GrowthDirection::fixed: {
+      const Vec2 heading = rule.heading * (1 / norm(rule.heading));
+      return dot(heading, ahead) < 0 ? -heading : heading;
+    }
+    case GrowthDirection::hoop: break;
+  }
+  return std::cos(hoop.angle) * ahead + std::sin(hoop.angle) * turned(ahead);
+}
+
+}  // namespace riven

@@ -1,0 +1,89 @@
+#include "core/state/make_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace riven {
+
+namespace {
+
+/// The body that holds a point, or -1.
+int body_at(const Scene& scene, Vec2 x) {
+  const auto in = [&](const Region& r) { return contains(r, x); };
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    if (in(scene.bodies[b].region) && std::none_of(scene.bodies[b].holes.begin(), scene.bodies[b].holes.end(), in))
+      return static_cast<int>(b);
+  return -1;
+}
+
+bool well_inside(const Scene& scene, Vec2 x, double radius) {
+  constexpr int directions = 16;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2 * std::numbers::pi * i / directions;
+    if (body_at(scene, x + radius * Vec2{std::cos(angle), std::sin(angle)}) < 0)
+      return false;
+  }
+  return true;
+}
+
+double distance(Vec2 x, Vec2 a, Vec2 b) {
+  const Vec2 d = b - a;
+  const double length2 = dot(d, d), t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0., 1.) : 0;
+  return norm(x - a - t * d);
+}
+
+/// Whether the end of a crack comes nearer than `radius` to another one, or to itself further along.
+bool on_crack(const Scene& scene, size_t crack, bool last, double radius) {
+  std::vector<Vec2> own = scene.cracks[crack].points;
+  if (last)
+    std::reverse(own.begin(), own.end());
+  const Vec2 x = own.front();
+  double along = 0;
+  for (size_t k = 0; k + 1 < own.size(); ++k) {
+    if (along > 4 * radius && distance(x, own[k], own[k + 1]) < radius)
+      return true;
+    along += norm(own[k + 1] - own[k]);
+  }
+  for (size_t c = 0; c < scene.cracks.size(); ++c)
+    for (size_t k = 0; c != crack && k + 1 < scene.cracks[c].points.size(); ++k)
+      if (distance(x, scene.cracks[c].points[k], scene.cracks[c].points[k + 1]) < radius)
+        return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Tip> make_tips(const Scene& scene) {
+  std::vector<Tip> tips;
+  for (size_t c = 0; c < scene.cracks.size(); ++c)
+    for (const bool last : {false, true}) {
+      const std::vector<Vec2>& points = scene.cracks[c].points;
+      const Vec2 x = last ? points.back() : points.front();
+      const int b = body_at(scene, x);
+      if (b < 0)
+        continue;
+      const Body& body = scene.bodies[static_cast<size_t>(b)];
+      // a little less, so that an end exactly half a particle away from an edge is a tip whatever rounding does
+      const double radius = 0.499 * scene.cell / body.particles_per_cell;
+      if (!well_inside(scene, x, radius) || on_crack(scene, c, last, radius))
+        continue;
+      Tip tip;
+      tip.crack = static_cast<int>(c);
+      tip.last = last;
+      tip.grows = growth_rule(scene, tip.crack) != nullptr;
+      tip.body = b;
+      tip.material = body.material;
+      tips.push_back(tip);
+    }
+  return tips;
+}
+
+const GrowthRule* growth_rule(const Scene& scene, int crack) {
+  const CrackLine& line = scene.cracks[static_cast<size_t>(crack)];
+  if (!line.grows)
+    return nullptr;
+  return line.growth ? &*line.growth : scene.growth ? &*scene.growth : nullptr;
+}
+
+}  // namespace riven
