@@ -36,23 +36,6 @@ struct Cracks {
   exec::Array<Vec2> jump;
   std::vector<Junction> junctions;
 
-  /// f(array) for every array that holds one entry per point and exists.
-  template <class F>
-  void each_point_array(F&& f) {
-    const auto some = [&](auto& a) {
-      if (!a.empty())
-        f(a);
-    };
-    some(crack);
-    some(plane);
-    some(upper);
-    some(lower);
-    some(upper_velocity);
-    some(lower_velocity);
-    some(plane0);
-    some(jump);
-  }
-
   /// The point at an end of a crack, and the one next to it.
   int end_point(int c, bool last) const {
     return last ? start[static_cast<size_t>(c) + 1] - 1 : start[static_cast<size_t>(c)];
