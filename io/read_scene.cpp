@@ -20,12 +20,13 @@ Scene parse_scene(std::string_view text, std::string name, const std::vector<std
   s.source_text = overrides.empty() ? std::string(text) : toml_text(document);
   const Table root(document, s,
                    {"title", "solver", "grid", "material", "body", "fix", "symmetry", "grip", "load", "body_force",
-                    "damping", "crack", "contact", "cracks", "probe", "output", "limits"});
+                    "damping", "crack", "contact", "cracks", "fracture", "probe", "output", "limits"});
   s.title = root.text("title", s.name);
   read_solver(root, s);
   read_bodies(root, s);
   read_conditions(root, s);
   read_cracks(root, s);
+  read_fracture(root, s);
   read_output(root, s);
   return s;
 }

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
 #include "core/scene/names.hpp"
+#include "core/scene/schedule.hpp"
 #include "io/atomic_file.hpp"
 #include "io/frames.hpp"
 #include "io/history.hpp"
@@ -82,6 +83,14 @@ std::vector<Summary::Warning> warnings(const Simulation& m) {
   const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
   if (capped > 0)
     list.push_back({"contact at a node was not solved within the limit of sweeps", capped, {}});
+  const FractureReport& j = m.fracture;
+  const auto say = [&](const char* kind, long count, Vec2 place) {
+    if (count > 0)
+      list.push_back({kind, count, place});
+  };
+  say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
+  say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
+  say("a J contour leaves the solid however small", j.unsound, j.place[2]);
   return list;
 }
 
@@ -123,7 +132,6 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
   Recorder record(options.folder, m);
   Progress progress(0, scene.end_time, m.state.particles.count(), options.quiet);
   const double start = exec::Stopwatch::now();
-  const double row_every = scene.output.history_every > 0 ? scene.output.history_every : scene.end_time / 500;
   const double frame_every = scene.output.frames > 0 ? scene.end_time / scene.output.frames : scene.end_time;
 
   const auto close = [&](const char* status, const std::string& message) {
@@ -139,16 +147,16 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
 
   frames.write(0, m.state.particles, m.state.cracks);
   record.row();
-  long rows = 1, written = 1;
+  long written = 1;
   try {
     while (!m.finished()) {
+      const double before = clock.time;
       m.step();
       progress.update(clock.step, clock.time, clock.dt, clock.limiter);
       const double reached = clock.time * (1 + 1e-12);
-      if (reached >= static_cast<double>(rows) * row_every || m.finished()) {
+      if (report_due(scene, before, clock.time)) {
         m.take_stock();
         record.row();
-        rows = static_cast<long>(reached / row_every) + 1;
       }
       if (reached >= static_cast<double>(written) * frame_every && !m.finished()) {
         frames.write(clock.time, m.state.particles, m.state.cracks);

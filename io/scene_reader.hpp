@@ -13,6 +13,7 @@ void read_solver(const Table& root, Scene& s);      ///< [solver], [grid], [limi
 void read_bodies(const Table& root, Scene& s);      ///< [[material]], [[body]], [[grip]]
 void read_conditions(const Table& root, Scene& s);  ///< [[fix]], [[symmetry]], [[load]], [body_force], [damping]
 void read_cracks(const Table& root, Scene& s);      ///< [contact], [cracks], [[crack]]
+void read_fracture(const Table& root, Scene& s);    ///< [fracture]
 void read_output(const Table& root, Scene& s);      ///< [output], [[probe]]
 
 /// The one of rectangle, disk and polygon that the table has.

@@ -1,7 +1,7 @@
 // From choices made at run time to kernels compiled for them: the one place, and the one table of what exists.
 //
 //   shape   linear, uGIMP, B-spline
-//   law     linear elastic, neo-Hookean, both          (only where stresses are updated)
+//   law     linear elastic (with or without the deformation gradient), neo-Hookean, both
 //   flags   of one kernel each
 //
 // Whether a block of particles meets cracks is seen block by block: tiles.hpp.
@@ -33,6 +33,7 @@ template <class Real, class F>
 decltype(auto) with_law(LawChoice law, F&& f) {
   switch (law) {
     case LawChoice::neo_hookean: return f(Type<NeoHookean<Real>>{});
+    case LawChoice::linear_elastic_F: return f(Type<LinearElasticF<Real>>{});
     case LawChoice::any: return f(Type<AnyElastic<Real>>{});
     case LawChoice::linear_elastic: break;
   }

@@ -7,6 +7,7 @@
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
 #include "kernels/contact.hpp"
+#include "kernels/fracture_step.hpp"
 
 namespace riven {
 
@@ -41,6 +42,8 @@ class Simulation {
   // contact's work space and what it did so far
   ContactSums contact_sums;
   ContactReport contact_before, contact_after, contact_again;
+
+  FractureReport fracture;
 
   Vec2 gravity() const;         ///< body force per mass now, m/s^2
   double grid_damping() const;  ///< 1/s

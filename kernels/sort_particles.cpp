@@ -84,7 +84,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
     p.tiles.start[t] = start[long{t} * cells_per_tile + 1];
   for (long i = 0; i < n; ++i)
     order[start[key[i] + 1]++] = static_cast<int>(i);
-  if (plan.contact)
+  if (plan.contact || plan.fracture)
     p.tiles.cell_start.swap(start);
 
   exec::Array<Real> spare_real;

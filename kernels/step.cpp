@@ -97,6 +97,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.constraints, "boundary after", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after); });
   add(p.contact, "contact after", "contact", contact_after_update);
+  add(p.fracture, "J and K", "J", find_j_and_k);
   add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields);
   add(p.particle_damping, "particle damping sums", "particle damping",
       [](Simulation& m) { book_particle_damping(m.space, m.particle_damping(), m.state); });

@@ -45,6 +45,8 @@ template <class Law, class Real>
 const Law* law_table(const LawTables<Real>& t) {
   if constexpr (std::is_same_v<Law, LinearElastic<Real>>)
     return t.linear.data();
+  else if constexpr (std::is_same_v<Law, LinearElasticF<Real>>)
+    return t.linear_F.data();
   else if constexpr (std::is_same_v<Law, NeoHookean<Real>>)
     return t.neo.data();
   else

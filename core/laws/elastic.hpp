@@ -84,6 +84,19 @@ struct LinearElastic {
   RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return zz * (p.xx + p.yy); }
 };
 
+/// The same, keeping the deformation gradient for those who ask for displacement gradients.
+template <class Real>
+struct LinearElasticF : LinearElastic<Real> {
+  static constexpr bool keeps_F = true;
+  using LinearElastic<Real>::LinearElastic;
+
+  RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
+    p.J = det(p.F);
+    LinearElastic<Real>::update(G, p);
+    p.F = p.F + G * p.F;
+  }
+};
+
 /// Compressible neo-Hookean solid,
 ///   W = mu/2 (tr b - 3) - mu ln J + lambda/4 (J^2 - 1) - lambda/2 ln J,
 ///   tau = mu (b - I) + lambda/2 (J^2 - 1) I                               (Simo and Pister 1984)

@@ -11,14 +11,16 @@ namespace riven {
 
 namespace {
 
-LawChoice law_choice(const Scene& scene) {
+LawChoice law_choice(const Scene& scene, bool gradients) {
   bool linear = false, neo = false;
   for (const Body& b : scene.bodies) {
     const LawKind law = scene.materials[static_cast<size_t>(b.material)].law;
     linear |= law == LawKind::linear_elastic;
     neo |= law == LawKind::neo_hookean;
   }
-  return linear && neo ? LawChoice::any : neo ? LawChoice::neo_hookean : LawChoice::linear_elastic;
+  if (neo)
+    return linear ? LawChoice::any : LawChoice::neo_hookean;
+  return gradients ? LawChoice::linear_elastic_F : LawChoice::linear_elastic;
 }
 
 /// B-splines are folded at the walls only; a mirror inside the grid would need mirrored ghost nodes.
@@ -42,7 +44,6 @@ Plan make_plan(const Scene& scene) {
   require_walls_for_bsplines(scene);
   Plan p;
   p.shape = scene.shape;
-  p.law = law_choice(scene);
   p.transfer = scene.transfer;
   p.order = scene.transfer == Transfer::xpic || scene.transfer == Transfer::fmpm ? scene.order : 1;
   p.update = scene.stress_update;
@@ -65,6 +66,7 @@ Plan make_plan(const Scene& scene) {
   for (int c = 0; c < static_cast<int>(scene.cracks.size()); ++c)
     p.growth |= growth_rule(scene, c) != nullptr;
   p.fracture = p.growth || (p.cracks && scene.fracture.asked);
+  p.law = law_choice(scene, p.fracture);
   p.grips = !scene.grips.empty();
   p.constraints = p.grips || !scene.fixed.empty() || !scene.symmetry.empty();
   p.loads = !scene.loads.empty();

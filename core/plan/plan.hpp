@@ -8,7 +8,7 @@
 
 namespace riven {
 
-enum class LawChoice { linear_elastic, neo_hookean, any };
+enum class LawChoice { linear_elastic, linear_elastic_F, neo_hookean, any };
 
 struct Plan {
   // one choice each, made outside of the loops

@@ -23,13 +23,16 @@ void make_tables(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       s.domains[i].axis[d] = {half, Real(1) / (4 * half), l.wall_lower[d], l.wall_upper[d]};
     }
     s.specific_area.resize(i + 1);
-    s.specific_area[i] = 1 / (m.density * (b.thickness > 0 ? b.thickness : scene.thickness));
+    s.thickness.resize(i + 1);
+    s.thickness[i] = b.thickness > 0 ? b.thickness : scene.thickness;
+    s.specific_area[i] = 1 / (m.density * s.thickness[i]);
     const auto add = [&](auto& table) {
       table.resize(i + 1);
       table[i] = {m, scene.plane};
     };
     switch (plan.law) {
       case LawChoice::linear_elastic: add(s.laws.linear); break;
+      case LawChoice::linear_elastic_F: add(s.laws.linear_F); break;
       case LawChoice::neo_hookean: add(s.laws.neo); break;
       case LawChoice::any: add(s.laws.any); break;
     }

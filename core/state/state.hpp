@@ -22,6 +22,7 @@ namespace riven {
 template <class Real>
 struct LawTables {
   exec::Array<LinearElastic<Real>> linear;
+  exec::Array<LinearElasticF<Real>> linear_F;
   exec::Array<NeoHookean<Real>> neo;
   exec::Array<AnyElastic<Real>> any;
 };
@@ -57,6 +58,7 @@ struct State {
   LawTables<Real> laws;
   exec::Array<DomainSetting<Real, Dim>> domains;  ///< [bodies]
   exec::Array<double> specific_area;              ///< [bodies] first area of particles, m^2 per kg
+  exec::Array<double> thickness;                  ///< [bodies] first thickness, m
   Constraints constraints;
   Loads loads;
   StepWatch watch;

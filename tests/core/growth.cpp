@@ -28,8 +28,9 @@ TEST(Growth, TurnsToTheGreatestHoopStress) {
       }
     const HoopStress found = greatest_hoop_stress(K_I, K_II);
     EXPECT_NEAR(found.K, most, 1e-7) << i;
-    if (K_I > -0.9999)  // else shut and without shear: nothing pulls anywhere, least of all backwards
+    if (K_I > -0.9999) {  // else shut and without shear: nothing pulls anywhere, least of all backwards
       EXPECT_NEAR(found.angle, at, 2 * pi / n) << i;
+    }
     EXPECT_NEAR(hoop(K_I, K_II, found.angle), found.K, 1e-12) << i;
   }
 }

@@ -1,0 +1,79 @@
+#include "core/fracture/stress_intensity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace riven {
+
+PlaneElasticity::PlaneElasticity(const Material& m, Plane plane) {
+  const bool strain = plane == Plane::strain;
+  mu = m.E / (2 * (1 + m.nu));
+  kappa = strain ? 3 - 4 * m.nu : (3 - m.nu) / (1 + m.nu);
+  E = strain ? m.E / (1 - m.nu * m.nu) : m.E;
+  shear_speed = std::sqrt(mu / m.density);
+  dilatational_speed = shear_speed * std::sqrt((kappa + 1) / (kappa - 1));
+}
+
+RunningTip::RunningTip(const PlaneElasticity& solid, double speed) {
+  const double d = speed / solid.dilatational_speed, s = speed / solid.shear_speed;
+  beta1 = std::sqrt(1 - d * d);
+  beta2 = std::sqrt(1 - s * s);
+  // D is a difference of nearly equal numbers, of the size of s^2: below this the limit is closer
+  if (s < 1e-3) {
+    A_I = A_II = (solid.kappa + 1) / 4;
+    return;
+  }
+  const double sum = 1 + beta2 * beta2, D = 4 * beta1 * beta2 - sum * sum;
+  A_I = beta1 * s * s / D;
+  A_II = beta2 * s * s / D;
+}
+
+StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, Vec2 opening) {
+  if (!(J > 0))
+    return {};
+  const RunningTip tip(solid, speed);
+  const double I = opening.x, II = opening.y, whole = I * I * tip.beta2 + II * II * tip.beta1;
+  if (!(whole > 0))
+    return {std::sqrt(2 * solid.mu * J / tip.A_I), 0};
+  return {I * std::sqrt(2 * solid.mu * J * tip.beta2 / (tip.A_I * whole)),
+          II * std::sqrt(2 * solid.mu * J * tip.beta1 / (tip.A_II * whole))};
+}
+
+AuxiliaryField auxiliary_field(const PlaneElasticity& solid, Vec2 r, int mode) {
+  const double R = norm(r), c = std::sqrt(std::max(0.0, 0.5 * (1 + r.x / R))),
+               s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1 - r.x / R))), r.y);  // of half the angle
+  const double c3 = c * (4 * c * c - 3), s3 = s * (3 - 4 * s * s);                     // of one and a half times it
+  const double scale = 1 / std::sqrt(2 * std::numbers::pi * R), k = solid.kappa;
+  const double cos = 2 * c * c - 1, sin = 2 * s * c;
+  AuxiliaryField f{};
+  // u = sqrt(R) U(theta) sqrt(1 / 2 pi) / (2 mu);  du/dx = cos du/dR - sin / R du/dtheta
+  double Ux, Uy, dUx, dUy;
+  if (mode == 1) {
+    f.sxx = scale * c * (1 - s * s3);
+    f.syy = scale * c * (1 + s * s3);
+    f.sxy = scale * c * s * c3;
+    Ux = c * (k - cos);
+    Uy = s * (k - cos);
+    dUx = -0.5 * s * (k - cos) + c * sin;
+    dUy = 0.5 * c * (k - cos) + s * sin;
+  } else {
+    f.sxx = -scale * s * (2 + c * c3);
+    f.syy = scale * s * c * c3;
+    f.sxy = scale * c * (1 - s * s3);
+    Ux = s * (k + 2 + cos);
+    Uy = -c * (k - 2 + cos);
+    dUx = 0.5 * c * (k + 2 + cos) - s * sin;
+    dUy = 0.5 * s * (k - 2 + cos) + c * sin;
+  }
+  const double scale_u = scale / (2 * solid.mu);
+  f.dux_dx = scale_u * (0.5 * cos * Ux - sin * dUx);
+  f.duy_dx = scale_u * (0.5 * cos * Uy - sin * dUy);
+  const double trace = (3 - k) / 4 * (f.sxx + f.syy);  // nu in plane strain, nu / (1 + nu) in plane stress
+  f.exx = (f.sxx - trace) / (2 * solid.mu);
+  f.eyy = (f.syy - trace) / (2 * solid.mu);
+  f.exy = f.sxy / (2 * solid.mu);
+  return f;
+}
+
+}  // namespace riven

@@ -1,0 +1,41 @@
+// Strain energy and stresses on the faces of cracks, for the integrals along them: values of particles on one side,
+// carried on to the face.
+//
+// At a node i near the crack the particles of one velocity field are on one side of it. The linear field
+//   f(x) = c + g . (x - x_i),   sum a_p S_ip (f_p - f(x_p))^2 + ridge |g|^2 -> min,
+// takes their values on to the face, where the average of the field (Nairn and Aimene, eq. 5) would give the value half
+// a cell inside the solid. At a point of the face the fields of the nodes of its cell are averaged by N_i(x) and the
+// area of particles behind each.
+#pragma once
+#include <vector>
+
+#include "core/exec/config.hpp"
+#include "core/math/vec.hpp"
+
+namespace riven {
+
+/// Sums for the fits of one velocity field of one node; offsets are from the node, in cells.
+struct FieldFit {
+  static constexpr int values = 8;  ///< energy part of Eshelby's tensor, then the whole: [11 12 21 22] each, Pa
+  double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< in cells
+  double f[values] = {}, fx[values] = {}, fy[values] = {};
+
+  RIVEN_INLINE void add(double weight, double rx, double ry, const double* value) {
+    area += weight;
+    x += weight * rx;
+    y += weight * ry;
+    xx += weight * rx * rx;
+    xy += weight * rx * ry;
+    yy += weight * ry * ry;
+    for (int k = 0; k < values; ++k) {
+      const double w = weight * value[k];
+      f[k] += w;
+      fx[k] += w * rx;
+      fy[k] += w * ry;
+    }
+  }
+  /// Adds weight * (value at offset r) of the fitted field to `to`.
+  void evaluate(Vec2 r, double weight, double* to) const;
+};
+
+}  // namespace riven

@@ -1,0 +1,208 @@
+// The integral of q E_Kj n_j along the faces of cracks that lie in a tip's domain (j_domain.hpp).
+//
+// An open face bears no traction: of Eshelby's tensor only (W + K) F_jK n_j is left. On faces in contact the traction
+// is that of the stresses beside them (Nairn and Aimene, section 2.2.2, step 5). The target crack's own faces take part
+// where they are not in line with its tip.
+#pragma once
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/state/state.hpp"
+#include "kernels/cell_rows.hpp"
+#include "kernels/crack_faces.hpp"
+#include "kernels/j_integral.hpp"
+#include "kernels/law_state.hpp"
+#include "kernels/surface_field.hpp"
+
+namespace riven {
+
+template <class Shape, class Law, class Real>
+class FaceIntegral {
+ public:
+  FaceIntegral(const State<Real, 2>& s, const SurfaceView& view, TipTask& task)
+      : s_(s), view_(view), law_(laws<Law>(s)), task_(task), drift_(s.watch.drift / s.grid.lattice.h + 1e-6) {}
+
+  void add() {
+    const Lattice& l = s_.grid.lattice;
+    const JDomain& d = task_.domain;
+    const double inv = 1 / l.h;
+    const Vec2 c = (d.tip - l.origin) * inv;
+    corner_[0] = static_cast<int>(std::floor(c.x - d.outer(left) * inv)) - 1;
+    corner_[1] = static_cast<int>(std::floor(c.y - d.outer(bottom) * inv)) - 1;
+    const int i1 = static_cast<int>(std::floor(c.x + d.outer(right) * inv)) + 2;
+    const int j1 = static_cast<int>(std::floor(c.y + d.outer(top) * inv)) + 2;
+    width_ = i1 - corner_[0] + 1;
+    height_ = j1 - corner_[1] + 1;
+    if (corner_[0] < 1 || corner_[1] < 1 || i1 >= l.nx - 1 || j1 >= l.ny - 1)
+      return;
+    for (int j = corner_[1]; j <= j1; ++j)
+      for (int i = corner_[0]; i <= i1; ++i)
+        add_cell(j * l.nx + i);
+  }
+
+ private:
+  using Fits = std::array<FieldFit, 4>;
+
+  /// The segments whose middle is in a cell, which sees them all.
+  void add_cell(int cell) {
+    const int seen = view_.cell_index[cell];
+    if (seen < 0)
+      return;
+    for (int at = view_.cell_start[seen]; at < view_.cell_start[seen + 1]; ++at) {
+      const int k = view_.cell_segment[at];
+      const Vec2 a = view_.plane[k], b = view_.plane[k + 1], middle = 0.5 * (a + b);
+      if (cell_of(middle) == cell)
+        add_segment(k, middle, b - a, cell);
+    }
+  }
+
+  int cell_of(Vec2 x) const {
+    const Lattice& l = s_.grid.lattice;
+    return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
+  }
+
+  void add_segment(int k, Vec2 middle, Vec2 along, int cell) {
+    const double q = task_.domain.weight(middle - task_.domain.tip), length = norm(along);
+    if (!(q > 0) || !(length > 0))
+      return;
+    const int crack = view_.crack[k];
+    const Vec2 t = along * (1 / length);
+    const bool own = crack == task_.crack;
+    if (own && std::fabs(cross(t, task_.heading)) < straight)
+      return;
+    if (!own)
+      task_.sums.crossed = true;
+    if (own ? !task_.bent_faces : !task_.other_faces)
+      return;
+    const Vec2 normal = turned(t);  // towards above
+    const int last = view_.start[crack + 1] - 1;
+    const double reach = 1.6 * s_.grid.lattice.h;
+    const CrackPoint point{
+        crack,
+        middle,
+        normal,
+        {},
+        norm(middle - view_.plane[view_.start[crack]]) < reach || norm(middle - view_.plane[last]) < reach,
+        std::numeric_limits<double>::infinity()};
+    const bool touches = in_contact(k, normal);
+    for (const Side side : {Side::above, Side::below}) {
+      SurfacePoint face{point, side, middle, cell};
+      double value[FieldFit::values] = {}, area = 0;
+      values_at(face, value, area);
+      if (!(area > 0))
+        continue;
+      const Vec2 n = side == Side::above ? -normal : normal;  // out of the solid
+      const double* e = value + (touches ? 4 : 0);
+      const double scale = q * length / area;
+      task_.sums.faces += scale * Vec2{e[0] * n.x + e[1] * n.y, e[2] * n.x + e[3] * n.y};
+    }
+  }
+
+  bool in_contact(int k, Vec2 normal) const {
+    const Cracks& c = s_.cracks;
+    if (c.contact[static_cast<size_t>(view_.crack[k])].law == ContactLaw::ignored)
+      return false;
+    const Vec2 gap = 0.5 * (c.upper[k] + c.upper[k + 1] - c.lower[k] - c.lower[k + 1]);
+    return dot(gap, normal) < touching * s_.grid.lattice.h;
+  }
+
+  /// Adds up the fits of the nodes of the face point's cell; the values are sums over `area`.
+  void values_at(SurfacePoint& face, double* value, double& area) {
+    const Lattice& l = s_.grid.lattice;
+    const Vec2 X = (face.x - l.origin) * (1 / l.h);
+    const int i = static_cast<int>(std::floor(X.x)), j = static_cast<int>(std::floor(X.y));
+    for (int n = 0; n < 4; ++n) {
+      const int ni = i + n % 2, nj = j + n / 2, node = nj * l.nx + ni;
+      const Vec2 r{X.x - ni, X.y - nj};
+      const double N = (1 - std::fabs(r.x)) * (1 - std::fabs(r.y));
+      if (!(N > 0))
+        continue;
+      const int f = view_.node_index[node];
+      int field = 0;
+      if (f >= 0) {
+        face.look(view_);
+        field = field_of_surface(view_, face, view_.nodes[f], l.position(ni, nj));
+      }
+      if (field < 0)
+        continue;
+      const FieldFit& fit = fits(ni, nj)[static_cast<size_t>(field)];
+      if (!(fit.area > least_area))
+        continue;
+      fit.evaluate(r, N * fit.area, value);
+      area += N * fit.area;
+    }
+  }
+
+  const Fits& fits(int i, int j) {
+    if (index_.empty())
+      index_.assign(static_cast<size_t>(width_ * height_), -1);
+    int& at = index_[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
+    if (at < 0) {
+      at = static_cast<int>(fits_.size());
+      fits_.emplace_back();
+      sum_node(i, j, fits_.back());
+    }
+    return fits_[static_cast<size_t>(at)];
+  }
+
+  void sum_node(int I, int J, Fits& fits) const {
+    const Particles<Real, 2>& p = s_.particles;
+    const Lattice& l = s_.grid.lattice;
+    const double reach = 1.5 + drift_, inv = 1 / l.h;
+    for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
+      each_stretch_of_row(l, p.tiles.cell_start.data(), j, Shape::cell(I - reach), Shape::cell(I + reach),
+                          [&](int first, int last) {
+                            for (int i = first; i < last; ++i)
+                              sum_particle(i, I, J, inv, fits);
+                          });
+  }
+
+  void sum_particle(int i, int I, int J, double inv, Fits& fits) const {
+    const Particles<Real, 2>& p = s_.particles;
+    const Lattice& l = s_.grid.lattice;
+    const DomainSetting<Real, 2>& d = s_.domains[p.body[i]];
+    const double X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
+    const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
+    const int m = I - a.base, n = J - b.base;
+    if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
+      return;
+    const double S = a.s[m] * b.s[n];
+    if (!(S > 0))
+      return;
+    const LawState<Real> state = law_state<Law>(p, i);
+    const auto& F = state.F;
+    const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
+    const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
+    const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
+    // rows: K, columns: j
+    const double energy[4] = {W * F.xx, W * F.yx, W * F.xy, W * F.yy};
+    const double value[FieldFit::values] = {energy[0],
+                                            energy[1],
+                                            energy[2],
+                                            energy[3],
+                                            energy[0] - (xx * (F.xx - 1) + xy * F.yx),
+                                            energy[1] - (xy * (F.xx - 1) + yy * F.yx),
+                                            energy[2] - (xx * F.xy + xy * (F.yy - 1)),
+                                            energy[3] - (xy * F.xy + yy * (F.yy - 1))};
+    const double area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
+    fits[static_cast<size_t>(CrackFields::field_of(s_.fields.fields[i], n * Shape::width + m))].add(area * S, X - I,
+                                                                                                    Y - J, value);
+  }
+
+  static constexpr double straight = 1e-3;    ///< sine of the angle to the tip's heading up to which a face is in line
+  static constexpr double touching = 0.05;    ///< opening in cells below which faces may press on each other
+  static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
+
+  const State<Real, 2>& s_;
+  const SurfaceView& view_;
+  BodyLookup<Law> law_;
+  TipTask& task_;
+  double drift_;
+  int corner_[2] = {0, 0}, width_ = 0, height_ = 0;
+  std::vector<int> index_;  ///< [nodes of the domain] position in fits_, or -1
+  std::vector<Fits> fits_;
+};
+
+}  // namespace riven

@@ -1,0 +1,164 @@
+#include "kernels/fracture_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/fracture/growth.hpp"
+#include "core/fracture/opening.hpp"
+#include "core/fracture/place_domain.hpp"
+#include "core/scene/schedule.hpp"
+#include "kernels/simulation.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Cells behind the tip in which the opening shares J out to the modes.
+constexpr double opening_from = 0.9, opening_to = 2.1;
+
+/// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
+constexpr double least_filled = 0.75, least_filled_across = 0.4;
+
+void count(long& counter, Vec2& place, Vec2 here) {
+  if (counter++ == 0)
+    place = here;
+}
+
+Vec2 position_of(const Cracks& cracks, const Tip& tip) {
+  return cracks.plane[cracks.end_point(tip.crack, tip.last)];
+}
+
+/// One tip on its way to J.
+struct Due {
+  Tip* tip;
+  double most[4];  ///< m, the contour as asked for, or as drawn in
+  bool adapted = false, settled = false;
+};
+
+class JSearch {
+ public:
+  JSearch(Simulation& m, bool report)
+      : m_(m), s_(m.state), report_(report), half_(0.5 * m.scene.fracture.contour * m.scene.cell) {
+    for (const Material& material : m.scene.materials)
+      solids_.emplace_back(material, m.scene.plane);
+  }
+
+  void run() {
+    std::vector<Due> due;
+    for (Tip& tip : s_.tips)
+      if (tip.open && (report_ || growth_due(tip, s_.clock.step)))
+        due.push_back({&tip, {half_, half_, half_, half_}});
+    while (!due.empty()) {
+      std::vector<TipTask> tasks;
+      for (Due& d : due)
+        tasks.push_back(place(d));
+      sum_around_tips(m_.space, m_.plan, s_, tasks);
+      std::vector<Due> again;
+      for (size_t k = 0; k < due.size(); ++k)
+        if (draw_in(due[k], tasks[k]))
+          again.push_back(due[k]);
+        else
+          settle(due[k], tasks[k]);
+      due.swap(again);
+    }
+  }
+
+ private:
+  TipTask place(Due& d) {
+    const Tip& tip = *d.tip;
+    const FractureRules& rules = m_.scene.fracture;
+    const Vec2 at = position_of(s_.cracks, tip);
+    std::vector<Vec2> others;
+    if (rules.method == JMethod::fijc_adaptive)
+      for (const Tip& other : s_.tips)
+        if (&other != &tip && other.open)
+          others.push_back(position_of(s_.cracks, other));
+    const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others);
+    d.adapted = placed.adapted;
+    if (placed.in_cell)
+      count(m_.fracture.in_cell, m_.fracture.place[0], at);
+    TipTask task;
+    task.domain = placed.domain;
+    task.crack = tip.crack;
+    task.heading = heading_of(s_.cracks, tip);
+    task.solid = &solids_[static_cast<size_t>(tip.material)];
+    task.other_faces = rules.method != JMethod::pijc;
+    task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
+    task.interaction = report_ && rules.interaction;
+    return task;
+  }
+
+  /// True when an edge of the contour lies outside of the solid and there is room to draw it in by a cell.
+  bool draw_in(Due& d, const TipTask& task) {
+    const double h = m_.scene.cell;
+    bool again = false;
+    d.settled = true;
+    for (int e = 0; e < 4; ++e) {
+      if (task.sums.filled[e] >= (crosses(task, *d.tip, e) ? least_filled_across : least_filled))
+        continue;
+      d.settled = false;
+      if (task.domain.reach[e] > 1.5 * h) {
+        d.most[e] = std::max(h, task.domain.reach[e] - h);
+        again = true;
+      }
+    }
+    if (again)
+      count(m_.fracture.drawn_in, m_.fracture.place[1], task.domain.tip);
+    return again;
+  }
+
+  /// Does the tip's own crack pass the band of an edge?
+  bool crosses(const TipTask& task, const Tip& tip, int edge) const {
+    const int end = s_.cracks.end_point(tip.crack, tip.last), other = s_.cracks.end_point(tip.crack, !tip.last);
+    const int step = tip.last ? -1 : 1;
+    for (int k = end; k != other + step; k += step) {
+      const Vec2 r = s_.cracks.plane[k] - task.domain.tip;
+      if (task.domain.slope(r, edge) > 0)
+        return true;
+    }
+    return false;
+  }
+
+  void settle(const Due& d, const TipTask& task) {
+    Tip& tip = *d.tip;
+    const TipSums& sums = task.sums;
+    const Vec2 J = sums.J + sums.inertia + sums.faces;
+    tip.step = s_.clock.step;
+    tip.J1 = J.x;
+    tip.J2 = J.y;
+    tip.J = dot(J, heading_of(s_.cracks, tip, true));
+    tip.adapted = d.adapted;
+    tip.crossed = sums.crossed;
+    tip.sound = d.settled;
+    for (int e = 0; e < 4; ++e)
+      tip.reach[e] = task.domain.reach[e] / m_.scene.cell;
+    if (!d.settled)
+      count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
+    ++m_.fracture.evaluations;
+    const double h = m_.scene.cell;
+    const Vec2 opening = opening_behind(s_.cracks, tip, opening_from * h, opening_to * h);
+    const StressIntensity K = share_out(*task.solid, tip.J, tip.speed, opening);
+    tip.K_I = K.I;
+    tip.K_II = K.II;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const bool usable = task.interaction && !sums.crossed;
+    tip.M_I = usable ? 0.5 * task.solid->E * sums.interaction[0] : none;
+    tip.M_II = usable ? 0.5 * task.solid->E * sums.interaction[1] : none;
+  }
+
+  Simulation& m_;
+  State<double, 2>& s_;
+  bool report_;
+  double half_;
+  std::vector<PlaneElasticity> solids_;
+};
+
+}  // namespace
+
+void find_j_and_k(Simulation& m) {
+  const Clock& c = m.state.clock;
+  JSearch(m, report_due(m.scene, c.time, c.time + c.dt)).run();
+}
+
+}  // namespace riven

@@ -1,0 +1,22 @@
+// J and K at the tips of cracks, when they are due (Nairn and Aimene, section 2.2.2; Guo and Nairn).
+#pragma once
+#include "kernels/j_integral.hpp"
+
+namespace riven {
+
+class Simulation;
+
+/// What went otherwise than hoped so far, and where first.
+struct FractureReport {
+  long in_cell = 0;   ///< another tip was too near for a contour between the two
+  long drawn_in = 0;  ///< the contour left the solid and was drawn in
+  long unsound = 0;   ///< it leaves the solid however small
+  long evaluations = 0;
+  Vec2 place[3];
+};
+
+/// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth
+/// is about to be checked. Runs between the momentum update and the move, when Grid::q holds [vx vy ax ay].
+void find_j_and_k(Simulation&);
+
+}  // namespace riven

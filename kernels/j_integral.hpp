@@ -1,0 +1,43 @@
+// The sums over particles around a tip that make up the J integral (j_domain.hpp), in the first configuration K:
+//   J_K = - sum a_p E_Kj dq/dx_j + sum a_p q P_K,
+//   a E_Kj = (m/t) [ (w + v^2/2) F_jK - tau_ij (F_iK - delta_iK) ],
+//   a P_K  = (m/t) [ a_i (F_iK - delta_iK) - v_i (grad v F)_iK ]           (Nairn and Aimene, eq. 9, times F)
+// with m/t the mass per thickness, w the strain energy and tau the Kirchhoff stress per mass. For small strains this is
+// the integral as printed; at any strain and rotation it is that of the crack's length when it was stress-free.
+#pragma once
+#include <vector>
+
+#include "core/exec/space.hpp"
+#include "core/fracture/j_domain.hpp"
+#include "core/fracture/stress_intensity.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+struct TipSums {
+  Vec2 J;                           ///< J/m^2, of the band in which q falls
+  Vec2 inertia;                     ///< J/m^2, of the area
+  Vec2 faces;                       ///< J/m^2, along the faces of cracks
+  double interaction[2] = {0, 0};   ///< m^0.5, interaction integral with the fields of K_I = 1 and K_II = 1
+  double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
+  bool crossed = false;             ///< another crack lies in the domain
+};
+
+/// A tip to sum around.
+struct TipTask {
+  JDomain domain;
+  int crack = 0;
+  Vec2 heading;             ///< unit vector out of the tip along the crack
+  bool other_faces = true;  ///< asks for the faces of other cracks
+  bool bent_faces = true;   ///< and for those of its own crack where it bends
+  const PlaneElasticity* solid = nullptr;
+  bool inertia = false;      ///< asks for TipSums::inertia
+  bool interaction = false;  ///< and for TipSums::interaction
+  TipSums sums{};
+};
+
+/// Fills the sums of all tasks. Grid::q holds [vx vy ax ay].
+template <class Real>
+void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, std::vector<TipTask>& tasks);
+
+}  // namespace riven
