@@ -69,12 +69,7 @@ class JSearch {
     const Tip& tip = *d.tip;
     const FractureRules& rules = m_.scene.fracture;
     const Vec2 at = position_of(s_.cracks, tip);
-    std::vector<Vec2> others;
-    if (rules.method == JMethod::fijc_adaptive)
-      for (const Tip& other : s_.tips)
-        if (&other != &tip && other.open)
-          others.push_back(position_of(s_.cracks, other));
-    const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others);
+    const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others(tip));
     d.adapted = placed.adapted;
     if (placed.in_cell)
       count(m_.fracture.in_cell, m_.fracture.place[0], at);
@@ -87,6 +82,24 @@ class JSearch {
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
     task.interaction = report_ && rules.interaction;
     return task;
+  }
+
+  /// The other tips, where the contour is to leave them out.
+  std::vector<Vec2> others(const Tip& tip) {
+    std::vector<Vec2> list;
+    if (m_.scene.fracture.method != JMethod::fijc_adaptive)
+      return list;
+    if (places_.empty())
+      for (const Tip& t : s_.tips)
+        places_.push_back(position_of(s_.cracks, t));
+    const Vec2 at = places_[static_cast<size_t>(&tip - s_.tips.data())];
+    const double far = 2 * half_ + 2 * m_.scene.cell;
+    for (size_t k = 0; k < places_.size(); ++k) {
+      const Vec2 r = places_[k] - at;
+      if (std::fabs(r.x) < far && std::fabs(r.y) < far && s_.tips[k].open && &s_.tips[k] != &tip)
+        list.push_back(places_[k]);
+    }
+    return list;
   }
 
   /// True when an edge of the contour lies outside of the solid and there is room to draw it in by a cell.
@@ -152,6 +165,7 @@ class JSearch {
   bool report_;
   double half_;
   std::vector<PlaneElasticity> solids_;
+  std::vector<Vec2> places_;  ///< [tips]
 };
 
 }  // namespace

@@ -13,6 +13,12 @@ double reach_before(double distance, double h) {
   return distance >= 4 * h ? distance - 2 * h : distance / 2;
 }
 
+/// Would q, with edges `reach` away, be more than 0 at an offset r?
+bool inside(Vec2 r, const double reach[4], double h) {
+  const auto within = [&](double along, int edge) { return along < reach[edge] + std::min(h, reach[edge]); };
+  return within(r.x, right) && within(r.y, top) && within(-r.x, left) && within(-r.y, bottom);
+}
+
 }  // namespace
 
 JDomain plain_domain(Vec2 tip, const double reach[4], double h) {
@@ -31,16 +37,14 @@ PlacedDomain place_domain(Vec2 tip, const double most[4], double h, const std::v
   std::copy(most, most + 4, reach);
   std::vector<Vec2> offsets;
   for (const Vec2 other : others)
-    offsets.push_back(other - tip);
+    if (const Vec2 r = other - tip; inside(r, reach, h))
+      offsets.push_back(r);
   // the nearest first: what leaves it out may leave out those behind it
   std::sort(offsets.begin(), offsets.end(), [](Vec2 a, Vec2 b) { return dot(a, a) < dot(b, b); });
   for (const Vec2 r : offsets) {
-    const double along[4] = {r.x, r.y, -r.x, -r.y};
-    bool inside = true;
-    for (int e = 0; e < 4; ++e)
-      inside = inside && along[e] < reach[e] + std::min(h, reach[e]);
-    if (!inside)
+    if (!inside(r, reach, h))
       continue;
+    const double along[4] = {r.x, r.y, -r.x, -r.y};
     const double far = std::max(std::fabs(r.x), std::fabs(r.y));
     if (far < h) {
       placed.in_cell = true;
