@@ -9,6 +9,7 @@
 #include "kernels/contact_step.hpp"
 #include "kernels/crack_step.hpp"
 #include "kernels/grid_to_particle.hpp"
+#include "kernels/grow_cracks.hpp"
 #include "kernels/higher_orders.hpp"
 #include "kernels/particle_to_grid.hpp"
 #include "kernels/prescribe_velocities.hpp"
@@ -117,6 +118,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
   add(p.cracks, "move cracks", "cracks", move_with_grid);
+  add(p.growth, "grow cracks", "growth", grow_cracks);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) { settle_constraints(m.state); });
   return list;

@@ -1,0 +1,107 @@
+#include "core/fracture/extend_crack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace riven {
+
+namespace {
+
+constexpr double overshoot = 1e-6;  // cells
+
+Vec2 unit(Vec2 v) {
+  const double length = norm(v);
+  return length > 0 ? v * (1 / length) : Vec2{};
+}
+
+}  // namespace
+
+int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) {
+  const long points = cracks.points(), at = last ? cracks.end_point(crack, true) + 1 : cracks.end_point(crack, false);
+  const long end = last ? at - 1 : at + 1;  // the end before, once the new point is in
+  cracks.each_point_array([&](auto& a) {
+    if (a.size() != points)
+      return;
+    using T = std::remove_reference_t<decltype(a[0])>;
+    a.resize(points + 1);
+    std::copy_backward(a.begin() + at, a.begin() + points, a.end());
+    a[at] = T{};
+  });
+  for (size_t c = static_cast<size_t>(crack) + 1; c < cracks.start.size(); ++c)
+    ++cracks.start[c];
+  for (Junction& j : cracks.junctions)
+    j.segment += !last && j.other == crack;
+  cracks.crack[at] = crack;
+  cracks.plane[at] = cracks.upper[at] = cracks.lower[at] = plane;
+  cracks.plane0[at] = plane0;
+  if (!cracks.upper_velocity.empty())
+    cracks.upper_velocity[at] = cracks.lower_velocity[at] =
+        0.5 * (cracks.upper_velocity[end] + cracks.lower_velocity[end]);
+  return static_cast<int>(at);
+}
+
+std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
+                                       double beside) {
+  const int tip = cracks.end_point(crack, last), own = last ? tip - 1 : tip;
+  const Vec2 x = cracks.plane[tip];
+  std::optional<Obstacle> found;
+  const auto take = [&](double distance, int point, double along) -> Obstacle* {
+    if (found && found->distance <= distance)
+      return nullptr;
+    const int other = cracks.crack[point];
+    const Vec2 a = cracks.plane[point], b = cracks.plane[point + 1];
+    found = Obstacle{
+        {crack, last, other, point - cracks.start[static_cast<size_t>(other)], along}, a + along * (b - a), distance};
+    return &*found;
+  };
+  for (int k = 0; k + 1 < cracks.points(); ++k) {
+    if (cracks.crack[k] != cracks.crack[k + 1] || k == own)
+      continue;
+    // x + t way = a + u (b - a)
+    const Vec2 a = cracks.plane[k] - x, d = cracks.plane[k + 1] - cracks.plane[k];
+    const double across = cross(way, d);
+    if (across == 0)
+      continue;
+    const double t = cross(a, d) / across, u = cross(a, way) / across;
+    constexpr double joint = 1e-9;  // so that no way leads through a joint of two segments
+    if (t > 0 && t <= reach && u >= -joint && u <= 1 + joint)
+      take(t, k, std::clamp(u, 0., 1.));
+  }
+  for (int c = 0; c < cracks.count(); ++c)
+    for (const bool other_last : {false, true}) {
+      const int k = cracks.end_point(c, other_last);
+      if (k == tip)
+        continue;
+      const Vec2 r = cracks.plane[k] - x;
+      const double t = dot(r, way);
+      if (t > 0 && t <= reach && std::fabs(cross(way, r)) < beside)
+        if (Obstacle* o = take(t, other_last ? k - 1 : k, other_last)) {
+          o->end = true;
+          o->end_last = other_last;
+        }
+    }
+  return found;
+}
+
+void join_crack(Cracks& cracks, const Obstacle& o, Vec2 plane0, double h) {
+  const Junction& j = o.on;
+  const Vec2 before = cracks.plane[cracks.end_point(j.crack, j.last)];
+  const int at = extend_crack(cracks, j.crack, j.last, o.place, plane0);
+  // its surfaces begin on this side of the crack joined
+  cracks.upper[at] = cracks.lower[at] = o.place - (overshoot * h) * unit(o.place - before);
+  cracks.junctions.push_back(j);
+  if (j.other == j.crack && !j.last)
+    ++cracks.junctions.back().segment;  // which was counted before the new point
+  tie_junctions(cracks, h);
+}
+
+void tie_junctions(Cracks& cracks, double h) {
+  for (const Junction& j : cracks.junctions) {
+    const int a = cracks.start[static_cast<size_t>(j.other)] + j.segment;
+    const int end = cracks.end_point(j.crack, j.last), before = cracks.next_to_end(j.crack, j.last);
+    const Vec2 place = cracks.plane[a] + j.along * (cracks.plane[a + 1] - cracks.plane[a]);
+    cracks.plane[end] = place + (overshoot * h) * unit(place - cracks.plane[before]);
+  }
+}
+
+}  // namespace riven

@@ -1,0 +1,36 @@
+// Points and junctions added at the ends of cracks.
+#pragma once
+#include <optional>
+
+#include "core/state/cracks.hpp"
+
+namespace riven {
+
+/// Adds a point beyond an end of a crack and returns its number; points behind it move up by one. Its surfaces start
+/// together on the plane, with the mean velocity of those at the end before. `plane0`: where that point of the material
+/// was at first.
+int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0);
+
+/// What a crack runs into.
+struct Obstacle {
+  Junction on;
+  Vec2 place;           ///< m
+  double distance = 0;  ///< m, along the way of the crack
+  bool end = false;     ///< it is an end of the crack that was hit; which one tells `end_last`
+  bool end_last = false;
+};
+
+/// The first crack in the way of the end of one that goes straight on for `reach` (m) along the unit vector `way`: one
+/// that it crosses, or one whose end lies within `beside` of the way. The crack itself counts, too, but for the segment
+/// at the end.
+std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
+                                       double beside);
+
+/// Extends a crack up to an obstacle and ties its end to it.
+void join_crack(Cracks& cracks, const Obstacle& obstacle, Vec2 plane0, double h);
+
+/// Puts the ends that have joined cracks where these have gone to. They reach over the crack joined by 1e-6 h, so that
+/// no path from a particle to a node leads through between them; their surfaces stay as they are.
+void tie_junctions(Cracks& cracks, double h);
+
+}  // namespace riven

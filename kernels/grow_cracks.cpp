@@ -1,0 +1,182 @@
+#include "kernels/grow_cracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fracture/extend_crack.hpp"
+#include "core/fracture/growth.hpp"
+#include "core/state/make_tips.hpp"
+#include "kernels/particles_near.hpp"
+#include "kernels/simulation.hpp"
+
+namespace riven {
+
+namespace {
+
+constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face each other, and are in each other's way
+constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on
+constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
+
+class Growth {
+ public:
+  Growth(Simulation& m, Tip& tip) : scene_(m.scene), s_(m.state), tip_(tip) {
+    const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
+    rule_ = growth_rule(scene_, tip.crack);
+    particle_ = scene_.cell / body.particles_per_cell;
+    thickness_ = body.thickness > 0 ? body.thickness : scene_.thickness;
+    limit_ = rule_->speed_limit > 0 ? rule_->speed_limit
+                                    : rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
+    now_ = s_.clock.time + s_.clock.dt;
+    x_ = s_.cracks.plane[s_.cracks.end_point(tip.crack, tip.last)];
+    ahead_ = direction(tip);
+  }
+
+  void check() {
+    tip_.due = s_.clock.step + check_interval(particle_, limit_, s_.clock.dt);
+    const std::optional<Vec2> way = next_way();
+    Tip* const other = way || tip_.running ? facing_tip() : nullptr;
+    if (other)
+      return meet(*other);
+    if (!way)
+      return wait();
+    const double segment = tip_.running ? std::min(particle_, limit_ * (now_ - tip_.grew)) : particle_;
+    if (const auto obstacle =
+            first_obstacle(s_.cracks, tip_.crack, tip_.last, *way, segment + 0.5 * particle_, 0.5 * particle_))
+      return join(*obstacle);
+    const Vec2 to = x_ + segment * *way;
+    extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
+    book(segment);
+    if (solid_ahead(s_, to, *way, particle_)) {
+      tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
+      tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
+    } else {
+      const Vec2 end = to + beyond_edge * scene_.cell * *way;
+      extend_crack(s_.cracks, tip_.crack, tip_.last, end, first(to) + end - to);
+      close(tip_, CrackEvent::Kind::exit, to, -1);
+    }
+  }
+
+ private:
+  Vec2 direction(const Tip& t) const {
+    const Vec2 d =
+        s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - s_.cracks.plane[s_.cracks.next_to_end(t.crack, t.last)];
+    return d * (1 / norm(d));
+  }
+
+  std::optional<Vec2> next_way() const {
+    if (tip_.sound)
+      return growth_direction(*rule_, tip_, ahead_);
+    return tip_.running && at_edge() ? std::optional(ahead_) : std::nullopt;
+  }
+
+  /// Whether the edge of the solid lies ahead within the contour.
+  bool at_edge() const {
+    const double reach = (0.5 * scene_.fracture.contour + 1) * scene_.cell;
+    for (double d = 0; d < reach; d += particle_)
+      if (!solid_ahead(s_, x_ + d * ahead_, ahead_, particle_))
+        return true;
+    return false;
+  }
+
+  Tip* facing_tip() const {
+    Tip* nearest = nullptr;
+    double least = scene_.cell;
+    for (Tip& t : s_.tips) {
+      if (&t == &tip_ || !t.open)
+        continue;
+      const Vec2 r = s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - x_;
+      const double d = norm(r);
+      const Vec2 its = direction(t);
+      if (d > 0 && d < least && std::min({dot(r, ahead_) / d, -dot(r, its) / d, -dot(ahead_, its)}) > facing) {
+        least = d;
+        nearest = &t;
+      }
+    }
+    return nearest;
+  }
+
+  void meet(Tip& other) {
+    const Cracks& c = s_.cracks;
+    const int k = c.end_point(other.crack, other.last);
+    Obstacle o;
+    o.on = {tip_.crack, tip_.last, other.crack,
+            std::max(0, k - c.start[static_cast<size_t>(other.crack)] - int{other.last}), double(other.last)};
+    o.place = c.plane[k];
+    o.distance = norm(o.place - x_);
+    join_crack(s_.cracks, o, c.plane0[k], scene_.cell);
+    book(o.distance);
+    close(tip_, CrackEvent::Kind::meet, o.place, other.crack);
+    close(other, CrackEvent::Kind::meet, o.place, tip_.crack);
+  }
+
+  void join(const Obstacle& o) {
+    join_crack(s_.cracks, o, first(o.place), scene_.cell);
+    book(o.distance);
+    close(tip_, CrackEvent::Kind::join, o.place, o.on.other);
+    for (Tip& t : s_.tips)
+      if (o.end && t.open && t.crack == o.on.other && t.last == o.end_last)
+        close(t, CrackEvent::Kind::join, o.place, tip_.crack);
+  }
+
+  void wait() {
+    const double since = now_ - tip_.grew;
+    if (!tip_.running)
+      return;
+    tip_.speed = std::min(tip_.speed, particle_ / since);
+    if (since * limit_ > rest * particle_) {
+      tip_.running = false;
+      tip_.speed = 0;
+      record(tip_, CrackEvent::Kind::arrest, x_, -1);
+    }
+  }
+
+  Vec2 first(Vec2 x) const {
+    const int k = s_.cracks.end_point(tip_.crack, tip_.last);
+    return first_position(s_, x, s_.cracks.plane0[k] - s_.cracks.plane[k]);
+  }
+
+  /// The tip has grown by a segment.
+  void book(double segment) {
+    if (tip_.running) {
+      tip_.speed += 0.25 * (segment / (now_ - tip_.grew) - tip_.speed);
+    } else {
+      tip_.running = true;
+      record(tip_, CrackEvent::Kind::start, x_, -1);
+    }
+    tip_.grew = now_;
+    tip_.length += segment;
+    const double released = std::max(0., tip_.J) * segment * thickness_;
+    tip_.released += released;
+    s_.ledger.energy.fracture += released;
+  }
+
+  void close(Tip& t, CrackEvent::Kind kind, Vec2 place, int other) {
+    record(t, kind, place, other);
+    t.open = t.running = false;
+    t.speed = 0;
+  }
+
+  void record(const Tip& t, CrackEvent::Kind kind, Vec2 place, int other) {
+    s_.events.push_back({kind, s_.clock.step, now_, t.crack, t.last, place, other, t.J, t.K_I, t.K_II, t.speed});
+  }
+
+  const Scene& scene_;
+  State<double, 2>& s_;
+  Tip& tip_;
+  const GrowthRule* rule_;
+  double particle_, thickness_, limit_;
+  double now_;  ///< at the end of this step
+  Vec2 x_, ahead_;
+};
+
+}  // namespace
+
+void grow_cracks(Simulation& m) {
+  auto& s = m.state;
+  tie_junctions(s.cracks, m.scene.cell);
+  for (Tip& tip : s.tips)
+    if (growth_due(tip, s.clock.step) && tip.step == s.clock.step)
+      Growth(m, tip).check();
+}
+
+}  // namespace riven

@@ -1,0 +1,486 @@
+// Cracks that grow by K and J set by hand: where they go, how fast, what they leave behind, and what they run into.
+#include "kernels/grow_cracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+
+#include "core/fracture/growth.hpp"
+#include "kernels/assign_fields.hpp"
+#include "kernels/hash_cracks.hpp"
+#include "kernels/simulation.hpp"
+#include "tests/spaces.hpp"
+
+namespace riven {
+namespace {
+
+using Kind = CrackEvent::Kind;
+constexpr double stretch = 0.02;  // 1/s
+
+CrackLine crack(const char* name, std::vector<Vec2> points) {
+  CrackLine c;
+  c.name = name;
+  c.points = std::move(points);
+  return c;
+}
+
+/// A plate of 24 x 16 cells of 1 m, in which waves run 33 m in a second and particles are 0.5 m wide.
+Scene plate(std::vector<CrackLine> cracks, double speed_limit = 10) {
+  Scene s;
+  s.name = s.title = "plate";
+  s.end_time = 1e3;
+  s.cell = 1;
+  s.thickness = 0.5;
+  s.grid = {{-4, -4}, {28, 20}};
+  s.materials = {{"solid", LawKind::linear_elastic, 1e6, 0.3, 1000}};
+  Body b;
+  b.name = "plate";
+  b.region = Rectangle{{0, 0}, {24, 16}};
+  s.bodies = {b};
+  s.cracks = std::move(cracks);
+  s.contact.law = ContactLaw::frictionless;
+  s.growth = GrowthRule{};
+  s.growth->toughness = 1;
+  s.growth->speed_limit = speed_limit;
+  s.deterministic = true;
+  return s;
+}
+
+using Drive = std::function<void(Tip&)>;
+
+/// Opens every tip in mode I.
+void open(Tip& t) {
+  t.K_I = 2;
+  t.J = 3;
+}
+
+struct Driven {
+  Driven(const Scene& s, Drive d, const exec::Space& space = serial())
+      : scene(s), drive(std::move(d)), m(scene, space) {
+    std::erase_if(m.tasks, [](const Task& t) { return t.effect == "J"; });  // the drive says what J is
+    auto& p = m.state.particles;
+    for (long i = 0; i < p.count(); ++i) {
+      first.resize(static_cast<size_t>(p.count()));
+      first[static_cast<size_t>(p.id[i])] = {p.x[0][i], p.x[1][i]};
+      p.v[1][i] = stretch * (p.x[1][i] - 8);
+    }
+  }
+  static const exec::Space& serial() {
+    static const exec::Space space;
+    return space;
+  }
+  void steps(int n) {
+    for (; n > 0; --n) {
+      for (Tip& t : m.state.tips) {
+        t.step = m.state.clock.step;
+        drive(t);
+      }
+      m.step();
+    }
+  }
+  /// Until no tip is open.
+  void to_the_end(int most = 3000) {
+    const auto is_open = [](const Tip& t) { return t.open; };
+    while (most-- > 0 && std::any_of(m.state.tips.begin(), m.state.tips.end(), is_open))
+      steps(1);
+    EXPECT_GT(most, 0) << "a tip is still open";
+  }
+  std::vector<Kind> events() const {
+    std::vector<Kind> list;
+    for (const CrackEvent& e : m.state.events)
+      list.push_back(e.kind);
+    return list;
+  }
+  Vec2 end(int c, bool last) const { return m.state.cracks.plane[m.state.cracks.end_point(c, last)]; }
+
+  /// Nodes' fields that particles of different parts write to, the parts being numbered by first position.
+  long shared_fields(const std::function<int(Vec2)>& part) const {
+    const auto& s = m.state;
+    const Lattice& l = s.grid.lattice;
+    CrackFields fresh;
+    hash_cracks<UGimp>(serial(), l, s.cracks, fresh);
+    determine_fields<UGimp>(serial(), s.particles, s.domains.data(), l, s.cracks, fresh);
+    std::map<long, int> part_of;
+    long shared = 0;
+    for (long i = 0; i < s.particles.count(); ++i) {
+      const auto x = UGimp::axis(s.particles.x[0][i] - l.origin.x, s.domains[0].axis[0]);
+      const auto y = UGimp::axis(s.particles.x[1][i] - l.origin.y, s.domains[0].axis[1]);
+      const int own = part(first[static_cast<size_t>(s.particles.id[i])]);
+      for (int k = 0; k < 9; ++k) {
+        if (x.s[k % 3] * y.s[k / 3] == 0)
+          continue;
+        const int node = (y.base + k / 3) * l.nx + x.base + k % 3;
+        const long slot = 4L * node + CrackFields::field_of(fresh.fields[i], k);
+        const auto [at, added] = part_of.emplace(slot, own);
+        shared += !added && at->second != own;
+      }
+    }
+    return shared;
+  }
+
+  const Scene scene;
+  Drive drive;
+  Simulation m;
+  std::vector<Vec2> first;
+};
+
+int above(Vec2 x, double y) {
+  return x.y > y;
+}
+
+TEST(GrowCracks, GoStraightAtTheSpeedLimit) {
+  for (const double limit : {5., 10., 25., 38., 45.}) {
+    Driven run(plate({crack("edge", {{-1, 8}, {6, 8}})}, limit), open);  // on a grid line
+    ASSERT_EQ(run.m.state.tips.size(), 1u);
+    double start = -1;
+    while (run.m.state.tips[0].length < 12 && run.m.state.clock.step < 2000) {
+      run.steps(1);
+      const Tip& t = run.m.state.tips[0];
+      if (start < 0 && t.length > 0)
+        start = run.m.state.clock.time;
+      if (start >= 0) {
+        const double since = run.m.state.clock.time - start;
+        EXPECT_LE(t.length, limit * since + 0.5 + 1e-9) << limit;
+        EXPECT_GE(t.length, std::min(limit, 0.5 / run.m.state.clock.dt) * since - 0.5) << limit;
+      }
+    }
+    const Tip& t = run.m.state.tips[0];
+    EXPECT_GE(t.length, 12);
+    EXPECT_NEAR(t.speed, std::min(limit, 0.5 / run.m.state.clock.dt), 0.02 * limit);
+    EXPECT_EQ(run.events(), std::vector{Kind::start});
+    EXPECT_NEAR(run.m.state.ledger.energy.fracture, 3 * 0.5 * t.length, 1e-9);
+    EXPECT_NEAR(t.released, 3 * 0.5 * t.length, 1e-9);
+    for (int k = 0; k < run.m.state.cracks.points(); ++k)
+      EXPECT_NEAR(run.m.state.cracks.plane[k].y, 8, 0.02);
+  }
+}
+
+TEST(GrowCracks, TurnInTheDirectionOfGreatestHoopStress) {
+  for (const double K_II : {0.3, -0.3})
+    for (const bool last : {true, false}) {
+      std::vector<Vec2> points{{-1, 8.2}, {6, 8.2}};
+      if (!last)
+        std::reverse(points.begin(), points.end());
+      bool once = true;
+      Driven run(plate({crack("edge", points)}), [&](Tip& t) {
+        open(t);
+        t.K_II = once ? K_II : 0;
+      });
+      const Vec2 before = run.end(0, last);
+      while (run.m.state.tips[0].length == 0)
+        run.steps(1);
+      once = false;
+      run.steps(30);
+      const Vec2 way = run.end(0, last) - before;
+      EXPECT_NEAR(std::atan2(way.y, way.x), greatest_hoop_stress(2, K_II).angle, 0.02);
+      EXPECT_EQ(way.y > 0, K_II < 0);
+    }
+}
+
+/// The same crack, written from either end, grows the same way.
+TEST(GrowCracks, AtTheFirstEndAsAtTheLast) {
+  const auto other = crack("other", {{3, 3}, {7, 2.5}});
+  Driven a(plate({crack("edge", {{-1, 8.2}, {6, 8.4}}), other}), open);
+  Driven b(plate({crack("edge", {{6, 8.4}, {-1, 8.2}}), other}), open);
+  a.steps(150);
+  b.steps(150);
+  const Cracks &ca = a.m.state.cracks, &cb = b.m.state.cracks;
+  ASSERT_EQ(ca.points(), cb.points());
+  ASSERT_GT(ca.points(), 30);
+  for (int k = 0; k < ca.start[1]; ++k)
+    EXPECT_LT(norm(ca.plane[k] - cb.plane[ca.start[1] - 1 - k]), 1e-9) << k;
+  for (int k = ca.start[1]; k < ca.start[2]; ++k)
+    EXPECT_LT(norm(ca.plane[k] - cb.plane[k]), 1e-9) << k;
+}
+
+/// What was kept from step to step is what would be found afresh.
+TEST(GrowCracks, LeaveFieldsAsTheyWouldBeFoundAfresh) {
+  Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("inner", {{14, 4}, {17, 5}})}), open);
+  long crossing = 0;
+  for (int n = 0; n < 200; ++n) {
+    const auto& s = run.m.state;
+    run.steps(1);
+    if (hash_due(Driven::serial(), s.grid.lattice, s.cracks, s.fields))
+      continue;
+    CrackFields kept = s.fields, fresh;
+    determine_fields<UGimp>(Driven::serial(), s.particles, s.domains.data(), s.grid.lattice, s.cracks, kept,
+                            s.watch.tile_move.data());
+    hash_cracks<UGimp>(Driven::serial(), s.grid.lattice, s.cracks, fresh);
+    determine_fields<UGimp>(Driven::serial(), s.particles, s.domains.data(), s.grid.lattice, s.cracks, fresh);
+    for (long i = 0; i < s.particles.count(); ++i) {
+      ASSERT_EQ(kept.fields[i], fresh.fields[i]) << n;
+      crossing += fresh.fields[i] != 0;
+    }
+  }
+  EXPECT_GT(crossing, 1000);
+}
+
+TEST(GrowCracks, LeaveTheSolidInTwoParts) {
+  for (const double y : {8., 8.25, 8.1}) {  // on a grid line, through particles, beside both
+    Scene scene = plate({crack("edge", {{-1, y}, {6, y}})}, 25);
+    scene.contact.law = ContactLaw::ignored;
+    Driven run(scene, open);
+    EXPECT_GT(run.shared_fields([&](Vec2 x) { return above(x, y); }), 0);
+    run.to_the_end();
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+    const CrackEvent& exit = run.m.state.events.back();
+    EXPECT_NEAR(exit.place.x, 24, 0.6);
+    EXPECT_NEAR(exit.place.y, y, 0.3);
+    EXPECT_GT(run.end(0, true).x, 25.5);
+    const int points = run.m.state.cracks.points();
+    // the particles in line with the crack belong to either part
+    const auto part = [&](Vec2 x) { return above(x, y == 8.25 ? 8.2 : y); };
+    run.steps(1);
+    if (y != 8.25) {
+      EXPECT_EQ(run.shared_fields(part), 0) << y;
+    }
+    const auto momentum = [&](bool upper) {
+      Vec2 sum;
+      const auto& p = run.m.state.particles;
+      for (long i = 0; i < p.count(); ++i)
+        if (part(run.first[static_cast<size_t>(p.id[i])]) == upper)
+          sum += p.mass[i] * Vec2{p.v[0][i], p.v[1][i]};
+      return sum;
+    };
+    const Vec2 up = momentum(true), low = momentum(false);
+    run.steps(60);
+    EXPECT_EQ(run.m.state.cracks.points(), points);
+    if (y != 8.25) {
+      EXPECT_EQ(run.shared_fields(part), 0) << y;
+      EXPECT_LT(norm(momentum(true) - up), 1e-11 * norm(up)) << y;
+      EXPECT_LT(norm(momentum(false) - low), 1e-11 * norm(low)) << y;
+    }
+  }
+}
+
+TEST(GrowCracks, LeaveIntoAHoleAndAtASlant) {
+  Scene scene = plate({crack("inner", {{6, 8.1}, {7, 8.1}}), crack("slant", {{3, 12.1}, {4, 13.1}})}, 25);
+  scene.bodies[0].holes = {Disk{{14, 8}, 3}};
+  Driven run(scene, open);
+  ASSERT_EQ(run.m.state.tips.size(), 4u);
+  run.to_the_end();
+  for (const CrackEvent& e : run.m.state.events)
+    EXPECT_TRUE(e.kind == Kind::start || e.kind == Kind::exit);
+  for (const CrackEvent& e : run.m.state.events)
+    if (e.kind == Kind::exit && e.crack == 0 && e.last) {
+      EXPECT_NEAR(norm(e.place - Vec2{14, 8}), 3, 0.8);
+    }
+  run.steps(50);
+  const auto part = [](Vec2 x) { return x.y > x.x + 9.1 ? 0 : x.x < 14 ? 1 + (x.y > 8.1) : 3; };
+  // around the hole the plate holds together
+  EXPECT_EQ(run.shared_fields([&](Vec2 x) { return part(x) == 0; }), 0);
+  EXPECT_EQ(run.shared_fields([&](Vec2 x) {
+    return x.x > 12 ? 0 : part(x) == 2 ? 2 : part(x) == 1 ? 1 : 0;
+  }) > 0,
+            true);
+}
+
+/// A crack grows into one that goes through the plate; three parts share nothing, then and later, while all move.
+TEST(GrowCracks, JoinACrackInTheWay) {
+  for (const double y : {8., 8.1})
+    for (const double x : {14., 14.2}) {
+      Driven run(plate({crack("edge", {{-1, y}, {6, y}}), crack("upright", {{x, -1}, {x + 1e-3, 17}})}, 25), open);
+      ASSERT_EQ(run.m.state.tips.size(), 1u);
+      auto& p = run.m.state.particles;
+      for (long i = 0; i < p.count(); ++i) {  // turning, too
+        p.v[0][i] -= 0.1 * (p.x[1][i] - 8);
+        p.v[1][i] += 0.1 * (p.x[0][i] - 12);
+      }
+      run.to_the_end();
+      EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::join}));
+      EXPECT_EQ(run.m.state.events.back().other, 1);
+      ASSERT_EQ(run.m.state.cracks.junctions.size(), 1u);
+      const auto part = [&](Vec2 q) { return q.x > x ? 2 : above(q, y); };
+      for (int n = 0; n < 5; ++n) {
+        run.steps(20);
+        EXPECT_EQ(run.shared_fields(part), 0) << y << ' ' << x << ' ' << n;
+        const Junction& j = run.m.state.cracks.junctions[0];
+        const Vec2* on = run.m.state.cracks.plane.data() + run.m.state.cracks.start[1] + j.segment;
+        const Vec2 at = on[0] + j.along * (on[1] - on[0]), tip = run.end(0, true);
+        EXPECT_NEAR(norm(tip - at), 1e-6, 1e-9);
+        EXPECT_LT(dot(at - run.m.state.cracks.plane[run.m.state.cracks.next_to_end(0, true)], at - tip), 0);
+      }
+    }
+}
+
+/// The tie holds on to its segment while the crack that was joined grows at its first end.
+TEST(GrowCracks, StayTiedWhileTheOtherGrows) {
+  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}}), crack("upright", {{8.2, 6}, {8.2, 17}})}, 25), open);
+  run.drive = [](Tip& t) {
+    if (t.crack == 0)
+      open(t);
+  };
+  run.steps(40);
+  ASSERT_EQ(run.m.state.cracks.junctions.size(), 1u);
+  const Vec2 at = run.end(0, true);
+  run.drive = open;
+  run.to_the_end();
+  run.steps(1);
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::join, Kind::start, Kind::exit}));
+  EXPECT_LT(norm(run.end(0, true) - at), 0.2);
+  EXPECT_EQ(run.shared_fields([](Vec2 x) { return x.x > 8.2 ? 2 : above(x, 8.1); }), 0);
+}
+
+TEST(GrowCracks, JoinTheEndOfACrackBesideTheirWay) {
+  Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("upright", {{14.1, 8.2}, {14.1, 17}})}, 25), [](Tip& t) {
+    if (t.crack == 0)
+      open(t);
+  });
+  ASSERT_EQ(run.m.state.tips.size(), 2u);
+  run.to_the_end();
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::join, Kind::join}));
+  run.steps(20);
+  EXPECT_LT(norm(run.end(0, true) - run.end(1, false)), 2e-6);
+}
+
+/// Two cracks that grow towards each other part the plate.
+TEST(GrowCracks, TipsThatMeetBecomeOneLine) {
+  for (const double y : {8., 8.1})
+    for (const double offset : {0., 0.2, -0.4}) {
+      Driven run(plate({crack("left", {{-1, y}, {6, y}}), crack("right", {{25, y + offset}, {18, y + offset}})}, 25),
+                 open);
+      run.to_the_end();
+      EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::start, Kind::meet, Kind::meet}));
+      EXPECT_LT(norm(run.end(0, true) - run.end(1, true)), 2e-6);
+      const Vec2 at = run.end(0, true);
+      const auto part = [&](Vec2 x) { return above(x, x.x < at.x ? y : y + offset); };
+      for (int n = 0; n < 5; ++n) {
+        if (offset == 0) {
+          EXPECT_EQ(run.shared_fields(part), 0) << y << ' ' << n;
+        }
+        run.steps(20);
+      }
+    }
+}
+
+/// With tips within a cell J vanishes; a running tip does not wait for it, a resting one is left alone.
+TEST(GrowCracks, RunningTipsMeetWithoutJ) {
+  for (const bool running : {false, true}) {
+    Driven run(plate({crack("left", {{-1, 8.1}, {6, 8.1}}), crack("right", {{25, 8.1}, {10, 8.1}})}, 25), [&](Tip& t) {
+      const bool near = t.length > (running ? 3.1 : -1);
+      t.K_I = t.J = near || t.crack == 1 ? 0 : 2;
+    });
+    run.steps(100);
+    EXPECT_EQ(run.events(), running ? (std::vector{Kind::start, Kind::meet, Kind::meet}) : std::vector<Kind>{});
+  }
+}
+
+/// Offset by two cells, tips pass each other.
+TEST(GrowCracks, TipsThatDoNotFaceEachOtherPass) {
+  Driven run(plate({crack("left", {{-1, 7}, {6, 7}}), crack("right", {{25, 9}, {18, 9}})}, 25), open);
+  run.to_the_end();
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::start, Kind::exit, Kind::exit}));
+}
+
+TEST(GrowCracks, ArrestAndStartAgain) {
+  double K_I = 2;
+  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}), [&](Tip& t) { t.K_I = K_I; });
+  run.steps(20);
+  const double length = run.m.state.tips[0].length;
+  EXPECT_GT(length, 0);
+  K_I = 0.5;
+  run.steps(20);
+  EXPECT_EQ(run.events(), std::vector{Kind::start});
+  run.steps(100);
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest}));
+  EXPECT_EQ(run.m.state.tips[0].speed, 0);
+  EXPECT_EQ(run.m.state.tips[0].length, length);
+  K_I = 2;
+  run.steps(10);
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest, Kind::start}));
+}
+
+/// Neither an old J nor one without a sound contour lets a crack grow; but a running one goes through to an edge.
+TEST(GrowCracks, NeedAJThatCanBeTrusted) {
+  bool sound = false;
+  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}, 25), [&](Tip& t) {
+    open(t);
+    t.sound = sound;
+  });
+  run.steps(50);
+  EXPECT_EQ(run.m.state.tips[0].length, 0);
+  sound = true;
+  run.drive = [](Tip& t) {
+    open(t);
+    t.step -= 1;
+  };
+  run.steps(50);
+  EXPECT_EQ(run.m.state.tips[0].length, 0);
+  run.drive = [&](Tip& t) {
+    open(t);
+    t.sound = t.length < 5;
+  };
+  run.steps(100);
+  EXPECT_NEAR(run.m.state.tips[0].length, 5, 0.5);
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest}));
+  run.drive = [&](Tip& t) {
+    open(t);
+    t.sound = t.length < 16;
+  };
+  run.to_the_end();
+  EXPECT_EQ(run.m.state.events.back().kind, Kind::exit);
+}
+
+/// First positions of new points are those of the material there: a crack that grows straight in a turned plate was
+/// straight at first.
+TEST(GrowCracks, NewPointsKnowWhereTheyWereAtFirst) {
+  Scene scene = plate({crack("edge", {{8.1, 8.1}, {10.1, 8.1}})}, 25);
+  scene.grid = {{-8, -10}, {32, 26}};
+  Driven run(scene, open);
+  auto& p = run.m.state.particles;
+  for (long i = 0; i < p.count(); ++i) {
+    p.v[0][i] = -0.3 * (p.x[1][i] - 8);
+    p.v[1][i] = 0.3 * (p.x[0][i] - 12);
+  }
+  run.drive = [&](Tip& t) {
+    if (t.last && run.m.state.clock.time > 1.6 && t.length < 4)
+      open(t);
+    else
+      t.K_I = 0;
+  };
+  run.steps(200);
+  const Cracks& c = run.m.state.cracks;
+  const Vec2 d = run.end(0, true) - run.end(0, false);
+  EXPECT_GT(run.m.state.tips[1].length, 3.9);
+  EXPECT_GT(std::atan2(d.y, d.x), 0.45);
+  for (int k = 0; k < c.points(); ++k)
+    EXPECT_NEAR(c.plane0[k].y, 8.1, 0.05) << k;
+  EXPECT_NEAR(c.plane0[c.points() - 1].x, 10.1 + run.m.state.tips[1].length, 0.15);
+}
+
+TEST(GrowCracks, TheSameOnEverySpace) {
+  std::vector<std::vector<Vec2>> first;
+  for (const test::SpaceCase& where : test::space_cases()) {
+    if (where.scatter != ScatterKind::ordered)
+      continue;
+    const exec::Space space(where.kind, where.threads);
+    Driven run(
+        plate({crack("edge", {{-1, 8}, {6, 8}}), crack("upright", {{10.2, 3}, {10.1, 12}}),
+               crack("right", {{25, 8.2}, {18, 8.1}})},
+              25),
+        [](Tip& t) {
+          open(t);
+          t.K_II = 0.1 * t.crack;
+        },
+        space);
+    run.steps(120);
+    EXPECT_GT(run.m.state.cracks.junctions.size(), 0u);
+    std::vector<std::vector<Vec2>> now;
+    const Cracks& c = run.m.state.cracks;
+    for (const auto* a : {&c.plane, &c.upper, &c.lower, &c.plane0})
+      now.emplace_back(a->begin(), a->end());
+    if (first.empty())
+      first = now;
+    for (size_t a = 0; a < now.size(); ++a) {
+      ASSERT_EQ(now[a].size(), first[a].size()) << where.name();
+      EXPECT_EQ(std::memcmp(now[a].data(), first[a].data(), now[a].size() * sizeof(Vec2)), 0) << where.name();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace riven
