@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
 
 namespace riven::checks {
@@ -42,6 +43,22 @@ void check_contact(const Scene& s, const std::string& key, const ContactSettings
            "greater than 0", "law = \"frictionless\" for none");
 }
 
+/// Growth asked for must have a tip to grow from.
+void check_growth(const Scene& s) {
+  const std::vector<Tip> tips = make_tips(s);
+  for (int c = 0; c < static_cast<int>(s.cracks.size()); ++c) {
+    const CrackLine& line = s.cracks[static_cast<size_t>(c)];
+    if (line.growth && std::none_of(tips.begin(), tips.end(), [&](const Tip& t) { return t.crack == c; }))
+      refuse(s, "crack " + line.name, "the crack is to grow but has no tip in a body",
+             text(line.points.front()) + " to " + text(line.points.back()),
+             "an end inside a body, off its border and off other cracks", "no growth for this crack");
+  }
+  if (s.growth && std::none_of(tips.begin(), tips.end(), [](const Tip& t) { return t.grows; }))
+    refuse(s, "growth", "cracks are to grow but none that may has a tip in a body",
+           fmt::format("{} cracks", s.cracks.size()), "an end inside a body, off its border and off other cracks",
+           "no [growth]");
+}
+
 }  // namespace
 
 void check_cracks(const Scene& s) {
@@ -71,6 +88,7 @@ void check_cracks(const Scene& s) {
       refuse(s, "crack " + c.name, "no part of the crack lies in a body",
              text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body");
   }
+  check_growth(s);
 }
 
 }  // namespace riven::checks

@@ -57,6 +57,10 @@ class Table {
   double quantity(const char* key, const Dimension& d, Range allowed) const;
   double quantity(const char* key, const Dimension& d, Range allowed, double fallback,
                   const char* said = nullptr) const;
+  /// A toughness in Pa m^0.5, greater than 0.
+  double toughness(const char* key) const;
+  /// Two plain numbers, not both 0, made a vector of unit length.
+  Vec2 heading(const char* key) const;
   Vec2 vector(const char* key, const Dimension& d) const;
   Vec2 vector(const char* key, const Dimension& d, Vec2 fallback) const;
   std::vector<Vec2> points(const char* key, size_t least) const;

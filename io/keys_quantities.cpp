@@ -44,6 +44,26 @@ double Table::quantity(const char* key, const Dimension& d, Range allowed, doubl
   return absent(key, said ? said : si_text(fallback, d)) ? fallback : quantity(key, d, allowed);
 }
 
+double Table::toughness(const char* key) const {
+  const toml::node& node = need(key);
+  if (!node.is_string())
+    wrong_type(node, key, "a toughness as a text, \"0.5 MPa m^0.5\"");
+  const double value = placed(key, [&] { return parse_toughness(*node.value<std::string>()); });
+  return checked(key, value, range::positive, "Pa m^0.5");
+}
+
+Vec2 Table::heading(const char* key) const {
+  const toml::array* pair = need(key).as_array();
+  const auto number = [&](size_t i) { return pair->get(i)->value<double>(); };
+  if (!pair || pair->size() != 2 || !number(0) || !number(1))
+    refuse(key, "expected an array of two numbers, a direction", "[1, 0]");
+  const Vec2 d{*number(0), *number(1)};
+  const double length = norm(d);
+  if (!(length > 0 && std::isfinite(length)))
+    refuse(key, "the heading points nowhere", "two finite numbers, not both 0", "[1, 0]");
+  return d * (1 / length);
+}
+
 Vec2 Table::vector_of(const toml::node& node, const char* key, const Dimension& d) const {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2)

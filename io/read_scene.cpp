@@ -20,7 +20,7 @@ Scene parse_scene(std::string_view text, std::string name, const std::vector<std
   s.source_text = overrides.empty() ? std::string(text) : toml_text(document);
   const Table root(document, s,
                    {"title", "solver", "grid", "material", "body", "fix", "symmetry", "grip", "load", "body_force",
-                    "damping", "crack", "contact", "cracks", "fracture", "probe", "output", "limits"});
+                    "damping", "crack", "contact", "growth", "cracks", "fracture", "probe", "output", "limits"});
   s.title = root.text("title", s.name);
   read_solver(root, s);
   read_bodies(root, s);

@@ -1,22 +1,25 @@
 #include "io/run_scene.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
 #include "core/scene/names.hpp"
 #include "core/scene/schedule.hpp"
 #include "io/atomic_file.hpp"
+#include "io/event_log.hpp"
 #include "io/frames.hpp"
 #include "io/history.hpp"
 #include "io/probes.hpp"
 #include "io/progress.hpp"
+#include "io/tip_report.hpp"
 
 namespace riven {
 
 namespace {
 
-/// The quantities of every run, then the grips, then the scene's probes.
+/// The quantities of every run, then the grips, the tips of cracks, and the scene's probes.
 class Recorder {
  public:
   Recorder(const std::filesystem::path& folder, const Simulation& m)
@@ -31,6 +34,9 @@ class Recorder {
                           p.linear.y,   p.angular,  p.angular_error()};
     for (const ConstraintOwner& o : s.constraints.owners)
       v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
+    if (m_.plan.growth)
+      v.push_back(e.fracture);
+    add_tip_values(s.tips, v);
     for (const double q : probes_.read(m_))
       v.push_back(q);
     history_.row(v);
@@ -63,8 +69,10 @@ class Recorder {
       for (const auto& [what, unit] :
            {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
         c.push_back({o.name + " " + what, unit});
-    for (const HistoryColumn& p : probes.columns())
-      c.push_back(p);
+    if (m.plan.growth)
+      c.push_back({"fracture", "J"});
+    for (const auto& more : {tip_columns(m.state.tips, m.state.cracks), probes.columns()})
+      c.insert(c.end(), more.begin(), more.end());
     return c;
   }
 
@@ -118,6 +126,7 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   out.momentum_error = s.ledger.momentum.error();
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);
+  out.tips = summarize_tips(s.tips, s.cracks);
   out.cracks = summarize_cracks(s.cracks);
   for (const ConstraintOwner& o : s.constraints.owners)
     out.reactions.push_back({o.name, o.reaction});
@@ -130,6 +139,9 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
   make_folder(options.folder);
   FrameWriter frames(options.folder, scene);
   Recorder record(options.folder, m);
+  std::optional<EventLog> events;
+  if (m.plan.growth)
+    events.emplace(options.folder / "events.csv");
   Progress progress(0, scene.end_time, m.state.particles.count(), options.quiet);
   const double start = exec::Stopwatch::now();
   const double frame_every = scene.output.frames > 0 ? scene.end_time / scene.output.frames : scene.end_time;
@@ -137,6 +149,8 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
   const auto close = [&](const char* status, const std::string& message) {
     frames.write(clock.time, m.state.particles, m.state.cracks);
     frames.finish();
+    if (events)
+      events->write(m.state.events, m.state.cracks);
     Summary s = summarize(m, exec::Stopwatch::now() - start);
     s.status = status;
     s.message = message;
@@ -152,6 +166,8 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
     while (!m.finished()) {
       const double before = clock.time;
       m.step();
+      if (events)
+        events->write(m.state.events, m.state.cracks);
       progress.update(clock.step, clock.time, clock.dt, clock.limiter);
       const double reached = clock.time * (1 + 1e-12);
       if (report_due(scene, before, clock.time)) {

@@ -1,6 +1,7 @@
 // Readers of the parts of a scene; each takes the root table and fills its members of the Scene. Later parts refer to
 // earlier ones by name: the order is that of this file.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,12 @@ namespace riven {
 void read_solver(const Table& root, Scene& s);      ///< [solver], [grid], [limits]
 void read_bodies(const Table& root, Scene& s);      ///< [[material]], [[body]], [[grip]]
 void read_conditions(const Table& root, Scene& s);  ///< [[fix]], [[symmetry]], [[load]], [body_force], [damping]
-void read_cracks(const Table& root, Scene& s);      ///< [contact], [cracks], [[crack]]
+void read_cracks(const Table& root, Scene& s);      ///< [contact], [growth], [cracks], [[crack]]
 void read_fracture(const Table& root, Scene& s);    ///< [fracture]
 void read_output(const Table& root, Scene& s);      ///< [output], [[probe]]
+
+/// The table `growth` of this one, if there is one.
+std::optional<GrowthRule> read_growth(const Table& t);
 
 /// The one of rectangle, disk and polygon that the table has.
 Region read_region(const Table& t);

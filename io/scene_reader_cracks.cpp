@@ -66,17 +66,22 @@ void read_cracks(const Table& root, Scene& s) {
       "contact", {"law", "friction", "normal_stiffness", "shear_stiffness", "detection", "v_sep", "v_contact"});
   s.contact = read_contact(contact, s.contact);
   read_rules(contact, s.contact_rules);
+  s.growth = read_growth(root);
   const Table motion = root.table("cracks", {"motion", "surface_update"});
   s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
   s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
   size_t entry = 0;
-  for (const Table& t : root.tables("crack", {"name", "points", "file", "resolution", "contact"})) {
+  for (const Table& t : root.tables("crack", {"name", "points", "file", "resolution", "contact", "growth", "grows"})) {
     CrackLine crack;
     crack.name = read_name(t, "crack", entry++);
     crack.resolution = t.quantity("resolution", dimension::length, range::positive, crack.resolution, "particle size");
     if (t.has("contact"))
       crack.contact =
           read_contact(t.table("contact", {"law", "friction", "normal_stiffness", "shear_stiffness"}), s.contact);
+    crack.growth = read_growth(t);
+    crack.grows = t.flag("grows", true);
+    if (crack.growth && !crack.grows)
+      t.refuse("grows", "the crack has a rule for its growth and does not grow", "growth or grows = false");
     if (t.has("points") == t.has("file"))
       t.refuse(nullptr, t.has("file") ? "the crack has points and a file" : "the crack has no points", "points or file",
                "points = [[\"0 mm\", \"5 mm\"], [\"10 mm\", \"5 mm\"]]");

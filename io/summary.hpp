@@ -29,10 +29,16 @@ struct Summary {
   };
   struct Tip {
     std::string crack;
-    std::string end;  ///< "first" or "last"
-    double x = 0, y = 0, length = 0, J = 0, J1 = 0, J2 = 0, K_I = 0, K_II = 0, speed = 0;
-    std::string contour;
-    bool adapted = false;
+    std::string end;    ///< "first" or "last"
+    std::string state;  ///< "resting", "running" or "closed"
+    double x = 0, y = 0;
+    double length = 0;  ///< m, by which it has grown
+    double J = 0, J1 = 0, J2 = 0;
+    double K_I = 0, K_II = 0;  ///< by the opening of the crack
+    double M_I = 0, M_II = 0;  ///< by the interaction integral
+    double speed = 0;
+    std::string contour;   ///< "4 x 4 cells"; empty before the first evaluation
+    bool adapted = false;  ///< the contour leaves out the tip of another crack
   };
   struct Value {
     std::string name;

@@ -25,6 +25,7 @@ inline const Dimension force{"force", "N", {"N", "mN", "kN"}};
 inline const Dimension rate{"rate", "1/s", {"1/s", "1/ms"}};
 inline const Dimension angular_velocity{"angular velocity", "rad/s", {"rad/s", "rad/ms", "rpm"}};
 inline const Dimension interface_stiffness{"interface stiffness", "Pa/m", {"MPa/mm", "GPa/mm", "Pa/m"}};
+inline const Dimension energy_release{"energy release rate", "J/m^2", {"J/m^2", "kJ/m^2", "N/mm"}};
 inline const Dimension stress_optic{"stress-optic constant", "1/Pa", {"1/MPa", "1/Pa"}};
 }  // namespace dimension
 

@@ -114,6 +114,38 @@ const Wrong cases[] = {
      "sin(t/tr)"},
     {"shape_unreadable", "sin(pi*t/tr)", "sin(pi*t/ts)", "plate.toml:25: grip.0.velocity_y", "cannot be read", "'t"},
     {"shape_not_finite", "sin(pi*t/tr)", "tr/t", "plate.toml:25: grip.0.velocity_y", "not finite at t = 0", "end"},
+    {"growth_without_toughness", "name = \"edge\"", "name = \"edge\"\ngrowth = {}",
+     "plate.toml:28: crack.0.growth.toughness", "missing key 'toughness'", "add toughness"},
+    {"toughness_without_root", "name = \"edge\"", "name = \"edge\"\ngrowth = { toughness = \"1 MPa\" }",
+     "plate.toml:28: crack.0.growth.toughness", "not a unit of toughness", "MPa m^0.5"},
+    {"toughness_of_no_size", "name = \"edge\"", "name = \"edge\"\ngrowth = { toughness = \"0 MPa sqrt(m)\" }",
+     "plate.toml:28: crack.0.growth.toughness", "out of range", "greater than 0"},
+    {"critical_j_as_toughness", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { criterion = \"critical_j\", toughness = \"1 MPa sqrt(m)\" }",
+     "plate.toml:28: crack.0.growth.toughness", "unit", "J/m^2"},
+    {"unknown_criterion", "name = \"edge\"", "name = \"edge\"\ngrowth = { criterion = \"kmax\" }",
+     "plate.toml:28: crack.0.growth.criterion", "unknown name 'kmax'", "'k_max'"},
+    {"fixed_without_heading", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { toughness = \"1 Pa sqrt(m)\", direction = \"fixed\" }",
+     "plate.toml:28: crack.0.growth.heading", "missing key 'heading'", "add heading"},
+    {"heading_nowhere", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { toughness = \"1 Pa sqrt(m)\", direction = \"fixed\", heading = [0, 0] }",
+     "plate.toml:28: crack.0.growth.heading", "points nowhere", "[1, 0]"},
+    {"heading_of_texts", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { toughness = \"1 Pa sqrt(m)\", direction = \"fixed\", heading = [\"1\", 0] }",
+     "plate.toml:28: crack.0.growth.heading", "two numbers", "[1, 0]"},
+    {"heading_for_hoop", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { toughness = \"1 Pa sqrt(m)\", heading = [1, 0] }",
+     "plate.toml:28: crack.0.growth.heading", "'hoop' has no heading", "fixed"},
+    {"speed_limit_zero", "name = \"edge\"",
+     "name = \"edge\"\ngrowth = { toughness = \"1 Pa sqrt(m)\", speed_limit = \"0 m/s\" }",
+     "plate.toml:28: crack.0.growth.speed_limit", "out of range", "greater than 0"},
+    {"grows_and_does_not", "name = \"edge\"",
+     "name = \"edge\"\ngrows = false\ngrowth = { toughness = \"1 Pa sqrt(m)\" }", "plate.toml:28: crack.0.grows",
+     "does not grow", "grows = false"},
+    {"growth_without_tip", "[\"25 mm\", \"50 mm\"]]",
+     "[\"51 mm\", \"50 mm\"]]\ngrowth = { toughness = \"1 Pa sqrt(m)\" }", "plate.toml:26: crack.0", "no tip in a body",
+     "inside a body"},
     {"time_of_wrong_unit", "tr = \"2 ms\"", "tr = \"2 mm\"", "plate.toml:25: grip.0.velocity_y", "not a unit of time",
      "did you mean 'ms'"},
 };
@@ -164,6 +196,7 @@ TEST(BadSceneParts, EachIsRefused) {
       {"[output]\nfields = [\"fringe\"]\n", "needs its constant", "fringe_constant"},
       {"[contact]\nv_sep = 1.2\n", "apart and in contact", "at most v_contact"},
       {"[damping]\ngrid = \"80 ms\"\n", "not a unit of rate", "1/ms"},
+      {"[growth]\ncriterion = \"k_max\"\n", "missing key 'toughness'", "add toughness"},
       {"[limits]\nenergy_growth = inf\n", "not finite", "greater than 0"},
   };
   for (const Extra& e : extras) {
@@ -172,6 +205,18 @@ TEST(BadSceneParts, EachIsRefused) {
     EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
     EXPECT_NE(t.what.find(e.what), std::string::npos) << Error(t).what();
     EXPECT_NE((t.limit + "\n" + t.suggestion).find(e.hint), std::string::npos) << Error(t).what();
+  }
+}
+
+TEST(BadSceneParts, GrowthNeedsATip) {
+  const std::string growth = "[growth]\ntoughness = \"1 MPa m^0.5\"\n";
+  read(good_scene + growth);
+  for (const std::string& text : {changed("[\"25 mm\", \"50 mm\"]]", "[\"50 mm\", \"50 mm\"]]") + growth,
+                                  changed("name = \"edge\"", "name = \"edge\"\ngrows = false") + growth}) {
+    const Trouble t = trouble_of(text);
+    EXPECT_EQ(t.code, Exit::bad_input);
+    EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
+    EXPECT_NE(t.what.find("has a tip in a body"), std::string::npos) << Error(t).what();
   }
 }
 

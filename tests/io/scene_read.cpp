@@ -245,3 +245,36 @@ TEST(ReadScene, ShippedScenesAreRight) {
   }
   EXPECT_GT(count, 0);
 }
+
+TEST(SceneRead, RulesOfGrowth) {
+  const Scene plain = read(good_scene);
+  EXPECT_FALSE(plain.growth);
+  EXPECT_FALSE(plain.cracks[0].growth);
+  EXPECT_TRUE(plain.cracks[0].grows);
+  const Scene s = read(good_scene +
+                       R"([crack.growth]
+criterion = "critical_j"
+toughness = "0.1 N/mm"
+direction = "fixed"
+heading = [3, -4]
+speed_limit = "500 m/s"
+[[crack]]
+points = [["5 mm", "5 mm"], ["9 mm", "5 mm"]]
+grows = false
+[growth]
+toughness = "0.5 MPa sqrt(m)") ");
+      ASSERT_TRUE(s.growth);
+  EXPECT_EQ(s.growth->criterion, GrowthCriterion::k_max);
+  EXPECT_DOUBLE_EQ(s.growth->toughness, 0.5e6);
+  EXPECT_EQ(s.growth->direction, GrowthDirection::hoop);
+  EXPECT_EQ(s.growth->speed_limit, 0);
+  ASSERT_TRUE(s.cracks[0].growth);
+  const GrowthRule& own = *s.cracks[0].growth;
+  EXPECT_EQ(own.criterion, GrowthCriterion::critical_j);
+  EXPECT_DOUBLE_EQ(own.toughness, 100);
+  EXPECT_EQ(own.direction, GrowthDirection::fixed);
+  EXPECT_NEAR(own.heading.x, 0.6, 1e-15);
+  EXPECT_NEAR(own.heading.y, -0.8, 1e-15);
+  EXPECT_DOUBLE_EQ(own.speed_limit, 500);
+  EXPECT_FALSE(s.cracks[1].grows);
+}

@@ -1,0 +1,63 @@
+#include "io/event_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "io/atomic_file.hpp"
+#include "io/tip_report.hpp"
+
+namespace riven {
+
+namespace {
+
+constexpr std::string_view header =
+    "time [s],step,crack,end,event,x [m],y [m],other crack,K_I [Pa m^0.5],K_II [Pa m^0.5],J [J/m^2],speed [m/s]\n";
+
+const char* name(CrackEvent::Kind kind) {
+  switch (kind) {
+    case CrackEvent::Kind::start: return "start";
+    case CrackEvent::Kind::arrest: return "arrest";
+    case CrackEvent::Kind::join: return "join";
+    case CrackEvent::Kind::exit: return "exit";
+    case CrackEvent::Kind::meet: return "meet";
+  }
+  return "?";
+}
+
+}  // namespace
+
+EventLog::EventLog(std::filesystem::path path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_TRUNC, 0666);
+  if (descriptor_ < 0)
+    fail_file(path_, "write the file", errno);
+  append(header);
+}
+
+EventLog::~EventLog() {
+  ::close(descriptor_);
+}
+
+void EventLog::write(const std::vector<CrackEvent>& events, const Cracks& cracks) {
+  for (; written_ < events.size(); ++written_) {
+    const CrackEvent& e = events[written_];
+    const auto crack = [&](int c) { return c < 0 ? std::string() : cracks.names[static_cast<std::size_t>(c)]; };
+    append(fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
+                       crack(e.crack), end_name(e.last), name(e.kind), e.place.x, e.place.y, crack(e.other), e.K_I,
+                       e.K_II, e.J, e.speed));
+  }
+}
+
+void EventLog::append(std::string_view text) {
+  const off_t before = ::lseek(descriptor_, 0, SEEK_CUR);
+  if (write_all(descriptor_, text.data(), text.size()))
+    return;
+  const int cause = errno;
+  if (before >= 0 && ::ftruncate(descriptor_, before) != 0)
+    fail_file(path_, "write or shorten the file", cause);
+  fail_file(path_, "write the file", cause);
+}
+
+}  // namespace riven

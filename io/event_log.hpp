@@ -1,0 +1,30 @@
+// events.csv: what happened at the tips of cracks, each line written as it happens.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/state/cracks.hpp"
+#include "core/state/tips.hpp"
+
+namespace riven {
+
+class EventLog {
+ public:
+  /// Begins the file with its header. Throws Error (file).
+  explicit EventLog(std::filesystem::path path);
+  ~EventLog();
+  EventLog(const EventLog&) = delete;
+  EventLog& operator=(const EventLog&) = delete;
+
+  /// Writes those of the events that are not in the file yet. After a failed write it ends with the line before.
+  void write(const std::vector<CrackEvent>& events, const Cracks& cracks);
+
+ private:
+  void append(std::string_view text);
+
+  std::filesystem::path path_;
+  std::size_t written_ = 0;
+  int descriptor_ = -1;
+};
+
+}  // namespace riven

@@ -1,0 +1,56 @@
+#include "io/tip_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace riven {
+
+std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Cracks& cracks) {
+  std::vector<HistoryColumn> columns;
+  for (std::size_t i = 0; i < std::min(tips.size(), most_tip_columns); ++i) {
+    const std::string tip = cracks.names[static_cast<std::size_t>(tips[i].crack)] + " " + end_name(tips[i].last) + " ";
+    columns.insert(columns.end(), {{tip + "length", "m"},
+                                   {tip + "J", "J/m^2"},
+                                   {tip + "K_I", "Pa m^0.5"},
+                                   {tip + "K_II", "Pa m^0.5"},
+                                   {tip + "speed", "m/s"}});
+  }
+  return columns;
+}
+
+void add_tip_values(const std::vector<Tip>& tips, std::vector<double>& row) {
+  for (std::size_t i = 0; i < std::min(tips.size(), most_tip_columns); ++i) {
+    const Tip& t = tips[i];
+    row.insert(row.end(), {t.length, t.J, t.K_I, t.K_II, t.speed});
+  }
+}
+
+std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cracks& cracks) {
+  std::vector<Summary::Tip> list;
+  for (const Tip& t : tips) {
+    const Vec2 x = cracks.plane[cracks.end_point(t.crack, t.last)];
+    Summary::Tip s;
+    s.crack = cracks.names[static_cast<std::size_t>(t.crack)];
+    s.end = end_name(t.last);
+    s.state = !t.open ? "closed" : t.running ? "running" : "resting";
+    s.x = x.x;
+    s.y = x.y;
+    s.length = t.length;
+    s.J = t.J;
+    s.J1 = t.J1;
+    s.J2 = t.J2;
+    s.K_I = t.K_I;
+    s.K_II = t.K_II;
+    s.M_I = t.M_I;
+    s.M_II = t.M_II;
+    s.speed = t.speed;
+    if (t.step >= 0)
+      s.contour = fmt::format("{} x {} cells", t.reach[0] + t.reach[2], t.reach[1] + t.reach[3]);
+    s.adapted = t.adapted;
+    list.push_back(s);
+  }
+  return list;
+}
+
+}  // namespace riven
