@@ -252,7 +252,7 @@ TEST(SceneRead, RulesOfGrowth) {
   EXPECT_FALSE(plain.cracks[0].growth);
   EXPECT_TRUE(plain.cracks[0].grows);
   const Scene s = read(good_scene +
-                       R"([crack.growth]
+                       R"toml([crack.growth]
 criterion = "critical_j"
 toughness = "0.1 N/mm"
 direction = "fixed"
@@ -262,8 +262,9 @@ speed_limit = "500 m/s"
 points = [["5 mm", "5 mm"], ["9 mm", "5 mm"]]
 grows = false
 [growth]
-toughness = "0.5 MPa sqrt(m)") ");
-      ASSERT_TRUE(s.growth);
+toughness = "0.5 MPa sqrt(m)"
+)toml");
+  ASSERT_TRUE(s.growth);
   EXPECT_EQ(s.growth->criterion, GrowthCriterion::k_max);
   EXPECT_DOUBLE_EQ(s.growth->toughness, 0.5e6);
   EXPECT_EQ(s.growth->direction, GrowthDirection::hoop);
