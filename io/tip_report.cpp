@@ -46,7 +46,7 @@ std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cra
     s.M_II = t.M_II;
     s.speed = t.speed;
     if (t.step >= 0)
-      s.contour = fmt::format("{} x {} cells", t.reach[0] + t.reach[2], t.reach[1] + t.reach[3]);
+      s.contour = fmt::format("{:.3g} x {:.3g} cells", t.reach[0] + t.reach[2], t.reach[1] + t.reach[3]);
     s.adapted = t.adapted;
     list.push_back(s);
   }

@@ -154,6 +154,7 @@ class Growth {
     record(t, kind, place, other);
     t.open = t.running = false;
     t.speed = 0;
+    t.J = t.J1 = t.J2 = t.K_I = t.K_II = t.M_I = t.M_II = 0;  // there is no tip any more
   }
 
   void record(const Tip& t, CrackEvent::Kind kind, Vec2 place, int other) {
