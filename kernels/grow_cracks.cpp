@@ -44,16 +44,12 @@ class Growth {
             first_obstacle(s_.cracks, tip_.crack, tip_.last, *way, segment + 0.5 * particle_, 0.5 * particle_))
       return join(*obstacle);
     const Vec2 to = x_ + segment * *way;
+    if (!solid_ahead(s_, to, *way, particle_))
+      return leave(to, *way, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
     book(segment);
-    if (solid_ahead(s_, to, *way, particle_)) {
-      tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
-      tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
-    } else {
-      const Vec2 end = to + beyond_edge * scene_.cell * *way;
-      extend_crack(s_.cracks, tip_.crack, tip_.last, end, first(to) + end - to);
-      close(tip_, CrackEvent::Kind::exit, to, -1);
-    }
+    tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
+    tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
   }
 
  private:
@@ -69,9 +65,11 @@ class Growth {
     return tip_.running && at_edge() ? std::optional(ahead_) : std::nullopt;
   }
 
-  /// Whether the edge of the solid lies ahead within the contour.
+  /// Whether the edge of the solid, or another crack, lies ahead within the contour.
   bool at_edge() const {
     const double reach = (0.5 * scene_.fracture.contour + 1) * scene_.cell;
+    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, ahead_, reach, 0))
+      return true;
     for (double d = 0; d < reach; d += particle_)
       if (!solid_ahead(s_, x_ + d * ahead_, ahead_, particle_))
         return true;
@@ -109,9 +107,22 @@ class Growth {
     close(other, CrackEvent::Kind::meet, o.place, tip_.crack);
   }
 
-  void join(const Obstacle& o) {
+  /// Grows to a place with no solid ahead, and on: to the plane between the faces of an open crack, or away.
+  void leave(Vec2 to, Vec2 way, double segment) {
+    const double beyond = beyond_edge * scene_.cell;
+    const auto open = first_obstacle(s_.cracks, tip_.crack, tip_.last, way, segment + beyond, 0);
+    if (open && solid_ahead(s_, open->place, way, scene_.cell))
+      return join(*open, segment);
+    extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
+    book(segment);
+    extend_crack(s_.cracks, tip_.crack, tip_.last, to + beyond * way, first(to) + beyond * way);
+    close(tip_, CrackEvent::Kind::exit, to, -1);
+  }
+
+  void join(const Obstacle& o) { join(o, o.distance); }
+  void join(const Obstacle& o, double cut) {
     join_crack(s_.cracks, o, first(o.place), scene_.cell);
-    book(o.distance);
+    book(cut);
     close(tip_, CrackEvent::Kind::join, o.place, o.on.other);
     for (Tip& t : s_.tips)
       if (o.end && t.open && t.crack == o.on.other && t.last == o.end_last)

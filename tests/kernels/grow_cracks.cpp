@@ -314,6 +314,32 @@ TEST(GrowCracks, JoinACrackInTheWay) {
     }
 }
 
+/// Faces that stand wide open are joined, not left into; and a running tip needs no contour to get there.
+TEST(GrowCracks, JoinACrackThatStandsOpen) {
+  bool run_now = false;
+  for (const bool sound : {true, false}) {
+    Scene scene = plate({crack("edge", {{-1, 8.1}, {6, 8.1}}), crack("upright", {{14.2, -1}, {14.2, 17}})}, 25);
+    Driven run(scene, [&](Tip& t) {
+      t.K_I = 0;
+      if (run_now) {
+        open(t);
+        t.sound = sound || t.length < 5;
+      }
+    });
+    auto& p = run.m.state.particles;
+    for (long i = 0; i < p.count(); ++i)  // the right part moves away
+      p.v[0][i] = p.x[0][i] > 14.2 ? 5 : 0;
+    run.steps(25);
+    run_now = true;
+    run.to_the_end();
+    run_now = false;
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::join}));
+    EXPECT_GT(run.end(0, true).x, 14.6);
+    run.steps(20);
+    EXPECT_EQ(run.shared_fields([&](Vec2 q) { return q.x > 14.2 ? 2 : above(q, 8.1); }), 0);
+  }
+}
+
 /// The tie holds on to its segment while the crack that was joined grows at its first end.
 TEST(GrowCracks, StayTiedWhileTheOtherGrows) {
   Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}}), crack("upright", {{8.2, 6}, {8.2, 17}})}, 25), open);
