@@ -45,6 +45,9 @@ void check_contact(const Scene& s, const std::string& key, const ContactSettings
 
 /// Growth asked for must have a tip to grow from.
 void check_growth(const Scene& s) {
+  if (!s.growth &&
+      std::none_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth.has_value(); }))
+    return;
   const std::vector<Tip> tips = make_tips(s);
   for (int c = 0; c < static_cast<int>(s.cracks.size()); ++c) {
     const CrackLine& line = s.cracks[static_cast<size_t>(c)];
