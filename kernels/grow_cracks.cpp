@@ -169,7 +169,17 @@ class Growth {
   }
 
   void record(const Tip& t, CrackEvent::Kind kind, Vec2 place, int other) {
-    s_.events.push_back({kind, s_.clock.step, now_, t.crack, t.last, place, other, t.J, t.K_I, t.K_II, t.speed});
+    s_.events.push_back({.kind = kind,
+                         .step = s_.clock.step,
+                         .time = now_,
+                         .crack = t.crack,
+                         .last = t.last,
+                         .place = place,
+                         .other = other,
+                         .J = t.J,
+                         .K_I = t.K_I,
+                         .K_II = t.K_II,
+                         .speed = t.speed});
   }
 
   const Scene& scene_;
