@@ -34,7 +34,8 @@ struct Summary {
     double x = 0, y = 0;
     double length = 0;  ///< m, by which it has grown
     double J = 0, J1 = 0, J2 = 0;
-    double K_I = 0, K_II = 0;  ///< by the opening of the crack
+    double K_I = 0, K_II = 0;  ///< J shared out by the interaction integral where it holds, else by the opening
+    double O_I = 0, O_II = 0;  ///< J shared out by the opening of the crack
     double M_I = 0, M_II = 0;  ///< by the interaction integral
     double speed = 0;
     std::string contour;   ///< "4 x 4 cells"; empty before the first evaluation

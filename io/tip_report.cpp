@@ -42,6 +42,8 @@ std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cra
     s.J2 = t.J2;
     s.K_I = t.K_I;
     s.K_II = t.K_II;
+    s.O_I = t.O_I;
+    s.O_II = t.O_II;
     s.M_I = t.M_I;
     s.M_II = t.M_II;
     s.speed = t.speed;

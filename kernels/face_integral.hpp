@@ -70,8 +70,11 @@ class FaceIntegral {
     const int crack = view_.crack[k];
     const Vec2 t = along * (1 / length);
     const bool own = crack == task_.crack;
-    if (own && std::fabs(cross(t, task_.heading)) < straight)
+    const double turn = std::fabs(cross(t, task_.heading));
+    if (own && turn < straight)
       return;
+    if (own && turn > bent)
+      task_.sums.bent = true;
     if (!own)
       task_.sums.crossed = true;
     if (own ? !task_.bent_faces : !task_.other_faces)
@@ -192,6 +195,7 @@ class FaceIntegral {
   }
 
   static constexpr double straight = 1e-3;    ///< sine of the angle to the tip's heading up to which a face is in line
+  static constexpr double bent = 0.2;         ///< and from which on the crack is bent for the interaction integral
   static constexpr double touching = 0.05;    ///< opening in cells below which faces may press on each other
   static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
 

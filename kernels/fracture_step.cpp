@@ -80,7 +80,7 @@ class JSearch {
     task.solid = &solids_[static_cast<size_t>(tip.material)];
     task.other_faces = rules.method != JMethod::pijc;
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
-    task.interaction = report_ && rules.interaction;
+    task.interaction = rules.interaction;
     return task;
   }
 
@@ -149,15 +149,27 @@ class JSearch {
     if (!d.settled)
       count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
     ++m_.fracture.evaluations;
-    const double h = m_.scene.cell;
+    share(tip, task);
+  }
+
+  /// J to the modes: by the interaction integral where that holds, else by the opening.
+  void share(Tip& tip, const TipTask& task) const {
+    const PlaneElasticity& solid = *task.solid;
+    const double h = m_.scene.cell, none = std::numeric_limits<double>::quiet_NaN();
     const Vec2 opening = opening_behind(s_.cracks, tip, opening_from * h, opening_to * h);
-    const StressIntensity K = share_out(*task.solid, tip.J, tip.speed, opening);
+    const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
+    tip.O_I = by_opening.I;
+    tip.O_II = by_opening.II;
+    const bool usable = task.interaction && !task.sums.crossed && !task.sums.bent;
+    const StressIntensity by_fields{0.5 * solid.E * task.sums.interaction[0], 0.5 * solid.E * task.sums.interaction[1]};
+    tip.M_I = usable ? by_fields.I : none;
+    tip.M_II = usable ? by_fields.II : none;
+    const StressIntensity K = usable ? share_in_proportion(solid, tip.J, tip.speed, by_fields) : by_opening;
     tip.K_I = K.I;
     tip.K_II = K.II;
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    const bool usable = task.interaction && !sums.crossed;
-    tip.M_I = usable ? 0.5 * task.solid->E * sums.interaction[0] : none;
-    tip.M_II = usable ? 0.5 * task.solid->E * sums.interaction[1] : none;
+    const StressIntensity drive = share_in_proportion(solid, tip.J, 0, K);
+    tip.drive_I = drive.I;
+    tip.drive_II = drive.II;
   }
 
   Simulation& m_;

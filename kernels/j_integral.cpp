@@ -116,8 +116,9 @@ class TipSummer {
     const double u1 = dot(ut, t), u2 = dot(ut, n);
     const Vec2 st{p.xx * t.x + p.xy * t.y, p.xy * t.x + p.yy * t.y};
     const double sxx = dot(st, t), sxy = dot(st, n), syy = p.xx + p.yy - sxx;
+    const AuxiliaryFields known = auxiliary_fields(*task.solid, local);
     for (int mode = 0; mode < 2; ++mode) {
-      const AuxiliaryField a = auxiliary_field(*task.solid, local, mode + 1);
+      const AuxiliaryField& a = known.mode[mode];
       const double energy = sxx * a.exx + syy * a.eyy + 2 * sxy * a.exy;
       // the actual stress is per mass, the auxiliary one per volume
       const double own = q.x * (sxx * a.dux_dx + sxy * a.duy_dx) + q.y * (sxy * a.dux_dx + syy * a.duy_dx);

@@ -21,6 +21,7 @@ struct TipSums {
   double interaction[2] = {0, 0};   ///< m^0.5, interaction integral with the fields of K_I = 1 and K_II = 1
   double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
   bool crossed = false;             ///< another crack lies in the domain
+  bool bent = false;                ///< the crack itself is not in line with its tip there
 };
 
 /// A tip to sum around.

@@ -40,40 +40,36 @@ StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, 
           II * std::sqrt(2 * solid.mu * J * tip.beta1 / (tip.A_II * whole))};
 }
 
-AuxiliaryField auxiliary_field(const PlaneElasticity& solid, Vec2 r, int mode) {
+StressIntensity share_in_proportion(const PlaneElasticity& solid, double J, double speed, StressIntensity proportion) {
+  const RunningTip tip(solid, speed);
+  return share_out(solid, J, speed, Vec2{tip.A_I * proportion.I, tip.A_II * proportion.II});
+}
+
+AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, Vec2 r) {
   const double R = norm(r), c = std::sqrt(std::max(0.0, 0.5 * (1 + r.x / R))),
                s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1 - r.x / R))), r.y);  // of half the angle
   const double c3 = c * (4 * c * c - 3), s3 = s * (3 - 4 * s * s);                     // of one and a half times it
   const double scale = 1 / std::sqrt(2 * std::numbers::pi * R), k = solid.kappa;
-  const double cos = 2 * c * c - 1, sin = 2 * s * c;
-  AuxiliaryField f{};
-  // u = sqrt(R) U(theta) sqrt(1 / 2 pi) / (2 mu);  du/dx = cos du/dR - sin / R du/dtheta
-  double Ux, Uy, dUx, dUy;
-  if (mode == 1) {
-    f.sxx = scale * c * (1 - s * s3);
-    f.syy = scale * c * (1 + s * s3);
-    f.sxy = scale * c * s * c3;
-    Ux = c * (k - cos);
-    Uy = s * (k - cos);
-    dUx = -0.5 * s * (k - cos) + c * sin;
-    dUy = 0.5 * c * (k - cos) + s * sin;
-  } else {
-    f.sxx = -scale * s * (2 + c * c3);
-    f.syy = scale * s * c * c3;
-    f.sxy = scale * c * (1 - s * s3);
-    Ux = s * (k + 2 + cos);
-    Uy = -c * (k - 2 + cos);
-    dUx = 0.5 * c * (k + 2 + cos) - s * sin;
-    dUy = 0.5 * s * (k - 2 + cos) + c * sin;
-  }
-  const double scale_u = scale / (2 * solid.mu);
-  f.dux_dx = scale_u * (0.5 * cos * Ux - sin * dUx);
-  f.duy_dx = scale_u * (0.5 * cos * Uy - sin * dUy);
-  const double trace = (3 - k) / 4 * (f.sxx + f.syy);  // nu in plane strain, nu / (1 + nu) in plane stress
-  f.exx = (f.sxx - trace) / (2 * solid.mu);
-  f.eyy = (f.syy - trace) / (2 * solid.mu);
-  f.exy = f.sxy / (2 * solid.mu);
-  return f;
+  const double cos = 2 * c * c - 1, sin = 2 * s * c, inv_2mu = 1 / (2 * solid.mu);
+  const double lateral = (3 - k) / 4;  // nu in plane strain, nu / (1 + nu) in plane stress
+  // u = sqrt(R / 2 pi) / (2 mu) U(theta);  du/dx = cos du/dR - sin / R du/dtheta
+  const auto field = [&](double sxx, double syy, double sxy, double Ux, double dUx, double Uy, double dUy) {
+    const double sx = scale * sxx, sy = scale * syy, st = scale * sxy, trace = lateral * (sx + sy);
+    const double to_u = scale * inv_2mu;
+    return AuxiliaryField{sx,
+                          sy,
+                          st,
+                          inv_2mu * (sx - trace),
+                          inv_2mu * (sy - trace),
+                          inv_2mu * st,
+                          to_u * (0.5 * cos * Ux - sin * dUx),
+                          to_u * (0.5 * cos * Uy - sin * dUy)};
+  };
+  const double a = k - cos, b = k + 2 + cos, d = k - 2 + cos;
+  return {
+      field(c * (1 - s * s3), c * (1 + s * s3), c * s * c3, c * a, c * sin - 0.5 * s * a, s * a, 0.5 * c * a + s * sin),
+      field(-s * (2 + c * c3), s * c * c3, c * (1 - s * s3), s * b, 0.5 * c * b - s * sin, -c * d,
+            0.5 * s * d + c * sin)};
 }
 
 }  // namespace riven

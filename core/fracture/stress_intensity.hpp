@@ -38,14 +38,20 @@ struct RunningTip {
 /// heading in y. Without an opening all is mode I; J < 0 gives no intensity.
 StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, Vec2 opening);
 
-/// Stresses and displacement gradients around a tip at rest under K_I = 1 or K_II = 1, in the tip's frame
-/// (x along its heading): Williams' first terms.
+/// The same by intensities that are in the right proportion, such as those of the interaction integral.
+StressIntensity share_in_proportion(const PlaneElasticity& solid, double J, double speed, StressIntensity proportion);
+
+/// Stresses and displacement gradients around a tip at rest in the tip's frame (x along its heading): the first terms
+/// of Williams' series.
 struct AuxiliaryField {
   double sxx, syy, sxy;   ///< Pa
   double exx, eyy, exy;   ///< strains
   double dux_dx, duy_dx;  ///< of the displacement along the heading
 };
-/// `r`: offset from the tip in its frame, m. `mode`: 1 or 2.
-AuxiliaryField auxiliary_field(const PlaneElasticity& solid, Vec2 r, int mode);
+/// Under K_I = 1 and under K_II = 1 Pa m^0.5, at an offset r from the tip in its frame, m.
+struct AuxiliaryFields {
+  AuxiliaryField mode[2];
+};
+AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, Vec2 r);
 
 }  // namespace riven

@@ -59,8 +59,8 @@ GrowthRule rule(GrowthCriterion criterion, double toughness, GrowthDirection dir
 
 Tip tip_with(double K_I, double K_II, double J) {
   Tip t;
-  t.K_I = K_I;
-  t.K_II = K_II;
+  t.drive_I = K_I;
+  t.drive_II = K_II;
   t.J = J;
   return t;
 }

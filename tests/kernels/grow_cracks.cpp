@@ -55,7 +55,7 @@ using Drive = std::function<void(Tip&)>;
 
 /// Opens every tip in mode I.
 void open(Tip& t) {
-  t.K_I = 2;
+  t.drive_I = 2;
   t.J = 3;
 }
 
@@ -172,7 +172,7 @@ TEST(GrowCracks, TurnInTheDirectionOfGreatestHoopStress) {
       bool once = true;
       Driven run(plate({crack("edge", points)}), [&](Tip& t) {
         open(t);
-        t.K_II = once ? K_II : 0;
+        t.drive_II = once ? K_II : 0;
       });
       const Vec2 before = run.end(0, last);
       while (run.m.state.tips[0].length == 0)
@@ -403,7 +403,7 @@ TEST(GrowCracks, RunningTipsMeetWithoutJ) {
   for (const bool running : {false, true}) {
     Driven run(plate({crack("left", {{-1, 8.1}, {6, 8.1}}), crack("right", {{25, 8.1}, {10, 8.1}})}, 25), [&](Tip& t) {
       const bool near = t.length > (running ? 3.1 : -1);
-      t.K_I = t.J = near || t.crack == 1 ? 0 : 2;
+      t.drive_I = t.J = near || t.crack == 1 ? 0 : 2;
     });
     run.steps(100);
     EXPECT_EQ(run.events(), running ? (std::vector{Kind::start, Kind::meet, Kind::meet}) : std::vector<Kind>{});
@@ -419,7 +419,7 @@ TEST(GrowCracks, TipsThatDoNotFaceEachOtherPass) {
 
 TEST(GrowCracks, ArrestAndStartAgain) {
   double K_I = 2;
-  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}), [&](Tip& t) { t.K_I = K_I; });
+  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}), [&](Tip& t) { t.drive_I = K_I; });
   run.steps(20);
   const double length = run.m.state.tips[0].length;
   EXPECT_GT(length, 0);
@@ -481,7 +481,7 @@ TEST(GrowCracks, NewPointsKnowWhereTheyWereAtFirst) {
     if (t.last && run.m.state.clock.time > 1.6 && t.length < 4)
       open(t);
     else
-      t.K_I = 0;
+      t.drive_I = 0;
   };
   run.steps(200);
   const Cracks& c = run.m.state.cracks;
@@ -505,7 +505,7 @@ TEST(GrowCracks, TheSameOnEverySpace) {
               25),
         [](Tip& t) {
           open(t);
-          t.K_II = 0.1 * t.crack;
+          t.drive_II = 0.1 * t.crack;
         },
         space);
     run.steps(120);
