@@ -61,6 +61,10 @@ TEST(CrackGrowth, StartsWhenTheStripAheadReleasesEnough) {
     EXPECT_NEAR(m.state.events.back().place.y, 0, mm);
     EXPECT_NEAR(m.state.tips[0].length, 30 * mm, mm);
     m.take_stock();  // which would say so if growth made the run unstable
+    // the waves that growth sends out are worn down by this transfer: its loss is what the crack took
+    const Energy& e = m.state.ledger.energy;
+    EXPECT_GT(e.fracture, 30 * mm * mm * toughness);
+    EXPECT_NEAR(-e.numerical(), e.fracture, 0.05 * e.fracture);
   }
 }
 
