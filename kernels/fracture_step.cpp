@@ -77,6 +77,7 @@ class JSearch {
     task.domain = placed.domain;
     task.crack = tip.crack;
     task.heading = heading_of(s_.cracks, tip);
+    task.speed = tip.speed;
     task.solid = &solids_[static_cast<size_t>(tip.material)];
     task.other_faces = rules.method != JMethod::pijc;
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
@@ -160,16 +161,27 @@ class JSearch {
     const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
+    const RunningTip rest(solid, 0);
     const bool usable = task.interaction && !task.sums.crossed && !task.sums.bent;
-    const StressIntensity by_fields{0.5 * solid.E * task.sums.interaction[0], 0.5 * solid.E * task.sums.interaction[1]};
-    tip.M_I = usable ? by_fields.I : none;
-    tip.M_II = usable ? by_fields.II : none;
-    const StressIntensity K = usable ? share_in_proportion(solid, tip.J, tip.speed, by_fields) : by_opening;
-    tip.K_I = K.I;
-    tip.K_II = K.II;
-    const StressIntensity drive = share_in_proportion(solid, tip.J, 0, K);
-    tip.drive_I = drive.I;
-    tip.drive_II = drive.II;
+    if (usable) {
+      const RunningTip running(solid, tip.speed);
+      tip.M_I = solid.mu * task.sums.interaction[0] / running.A_I;
+      tip.M_II = solid.mu * task.sums.interaction[1] / running.A_II;
+      const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, {tip.M_I, tip.M_II});
+      tip.K_I = K.I;
+      tip.K_II = K.II;
+      // the intensities at rest that release as much
+      tip.drive_I = tip.M_I * std::sqrt(running.A_I / rest.A_I);
+      tip.drive_II = tip.M_II * std::sqrt(running.A_II / rest.A_II);
+    } else {
+      tip.M_I = tip.M_II = none;
+      tip.K_I = tip.O_I;
+      tip.K_II = tip.O_II;
+      const StressIntensity drive = share_out(solid, tip.J, 0, opening);
+      tip.drive_I = drive.I;
+      tip.drive_II = drive.II;
+    }
+    tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
   }
 
   Simulation& m_;

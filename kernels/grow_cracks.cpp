@@ -156,7 +156,7 @@ class Growth {
     }
     tip_.grew = now_;
     tip_.length += segment;
-    const double released = std::max(0., tip_.J) * segment * thickness_;
+    const double released = std::max(0., tip_.release) * segment * thickness_;
     tip_.released += released;
     s_.ledger.energy.fracture += released;
   }

@@ -105,21 +105,24 @@ class TipSummer {
     for (int e = 0; e < 4; ++e)
       task.sums.filled[e] += area * slope[e];
     if (task.interaction)
-      add_interaction(task, state, m, p.mass[i] * s_.specific_area[body], r, g);
+      add_interaction(task, RunningTip(*task.solid, task.speed), state, m, p.mass[i] * s_.specific_area[body], r, g, v);
   }
 
-  void add_interaction(TipTask& task, const LawState<Real>& p, double m, double area, Vec2 r, Vec2 g) const {
+  void add_interaction(TipTask& task, const RunningTip& tip, const LawState<Real>& p, double m, double area, Vec2 r,
+                       Vec2 g, Vec2 v) const {
     const Vec2 t = task.heading, n = turned(t);
     const Vec2 local{dot(r, t), dot(r, n)}, q{dot(g, t), dot(g, n)};
     // displacement gradient and stress in the tip's frame
     const Vec2 ut{(p.F.xx - 1) * t.x + p.F.xy * t.y, p.F.yx * t.x + (p.F.yy - 1) * t.y};
     const double u1 = dot(ut, t), u2 = dot(ut, n);
     const Vec2 st{p.xx * t.x + p.xy * t.y, p.xy * t.x + p.yy * t.y};
+    // velocity times that of the running field, which is - speed du/dx
+    const double vx = -tip.speed * dot(v, t), vy = -tip.speed * dot(v, n);
     const double sxx = dot(st, t), sxy = dot(st, n), syy = p.xx + p.yy - sxx;
-    const AuxiliaryFields known = auxiliary_fields(*task.solid, local);
+    const AuxiliaryFields known = auxiliary_fields(*task.solid, tip, local);
     for (int mode = 0; mode < 2; ++mode) {
       const AuxiliaryField& a = known.mode[mode];
-      const double energy = sxx * a.exx + syy * a.eyy + 2 * sxy * a.exy;
+      const double energy = sxx * a.exx + syy * a.eyy + 2 * sxy * a.exy + vx * a.dux_dx + vy * a.duy_dx;
       // the actual stress is per mass, the auxiliary one per volume
       const double own = q.x * (sxx * a.dux_dx + sxy * a.duy_dx) + q.y * (sxy * a.dux_dx + syy * a.duy_dx);
       const double other = q.x * (a.sxx * u1 + a.sxy * u2) + q.y * (a.sxy * u1 + a.syy * u2);

@@ -18,7 +18,7 @@ struct TipSums {
   Vec2 J;                           ///< J/m^2, of the band in which q falls
   Vec2 inertia;                     ///< J/m^2, of the area
   Vec2 faces;                       ///< J/m^2, along the faces of cracks
-  double interaction[2] = {0, 0};   ///< m^0.5, interaction integral with the fields of K_I = 1 and K_II = 1
+  double interaction[2] = {0, 0};   ///< m^0.5, interaction integral over K, with the fields of K_I = 1 and K_II = 1
   double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
   bool crossed = false;             ///< another crack lies in the domain
   bool bent = false;                ///< the crack itself is not in line with its tip there
@@ -32,6 +32,7 @@ struct TipTask {
   bool other_faces = true;  ///< asks for the faces of other cracks
   bool bent_faces = true;   ///< and for those of its own crack where it bends
   const PlaneElasticity* solid = nullptr;
+  double speed = 0;          ///< m/s
   bool inertia = false;      ///< asks for TipSums::inertia
   bool interaction = false;  ///< and for TipSums::interaction
   TipSums sums{};

@@ -35,7 +35,7 @@ long check_interval(double particle, double speed_limit, double dt) {
 std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
   const HoopStress hoop = greatest_hoop_stress(tip.drive_I, tip.drive_II);
   const double K2 = tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II;
-  const double J = tip.drive_I < 0 && K2 > 0 ? tip.J * tip.drive_II * tip.drive_II / K2 : tip.J;
+  const double J = tip.drive_I < 0 && K2 > 0 ? tip.release * tip.drive_II * tip.drive_II / K2 : tip.release;
   if (!((rule.criterion == GrowthCriterion::k_max ? hoop.K : J) >= rule.toughness))
     return std::nullopt;
   switch (rule.direction) {

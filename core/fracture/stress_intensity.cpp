@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace riven {
@@ -15,18 +16,22 @@ PlaneElasticity::PlaneElasticity(const Material& m, Plane plane) {
   dilatational_speed = shear_speed * std::sqrt((kappa + 1) / (kappa - 1));
 }
 
-RunningTip::RunningTip(const PlaneElasticity& solid, double speed) {
-  const double d = speed / solid.dilatational_speed, s = speed / solid.shear_speed;
-  beta1 = std::sqrt(1 - d * d);
-  beta2 = std::sqrt(1 - s * s);
+RunningTip::RunningTip(const PlaneElasticity& solid, double v) {
+  const double s = v / solid.shear_speed, d = v / solid.dilatational_speed;
   // D is a difference of nearly equal numbers, of the size of s^2: below this the limit is closer
   if (s < 1e-3) {
+    beta1 = beta2 = 1;
     A_I = A_II = (solid.kappa + 1) / 4;
+    speed = D = 0;
     return;
   }
-  const double sum = 1 + beta2 * beta2, D = 4 * beta1 * beta2 - sum * sum;
+  beta1 = std::sqrt(1 - d * d);
+  beta2 = std::sqrt(1 - s * s);
+  const double sum = 1 + beta2 * beta2;
+  D = 4 * beta1 * beta2 - sum * sum;
   A_I = beta1 * s * s / D;
   A_II = beta2 * s * s / D;
+  speed = v;
 }
 
 StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, Vec2 opening) {
@@ -45,7 +50,9 @@ StressIntensity share_in_proportion(const PlaneElasticity& solid, double J, doub
   return share_out(solid, J, speed, Vec2{tip.A_I * proportion.I, tip.A_II * proportion.II});
 }
 
-AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, Vec2 r) {
+namespace {
+
+AuxiliaryFields at_rest(const PlaneElasticity& solid, Vec2 r) {
   const double R = norm(r), c = std::sqrt(std::max(0.0, 0.5 * (1 + r.x / R))),
                s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1 - r.x / R))), r.y);  // of half the angle
   const double c3 = c * (4 * c * c - 3), s3 = s * (3 - 4 * s * s);                     // of one and a half times it
@@ -70,6 +77,35 @@ AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, Vec2 r) {
       field(c * (1 - s * s3), c * (1 + s * s3), c * s * c3, c * a, c * sin - 0.5 * s * a, s * a, 0.5 * c * a + s * sin),
       field(-s * (2 + c * c3), s * c * c3, c * (1 - s * s3), s * b, 0.5 * c * b - s * sin, -c * d,
             0.5 * s * d + c * sin)};
+}
+
+/// u = sqrt(2 / pi) B / mu [Re or Im of combinations of sqrt(z_1) and sqrt(z_2)], z_j = x + i beta_j y.
+AuxiliaryFields running(const PlaneElasticity& solid, const RunningTip& tip, Vec2 r) {
+  using Complex = std::complex<double>;
+  const double a = tip.beta1, b = tip.beta2, sum = 1 + b * b;
+  // d sqrt(z) / dx; d/dy is i beta times that
+  const Complex z1 = 0.5 / std::sqrt(Complex(r.x, a * r.y)), z2 = 0.5 / std::sqrt(Complex(r.x, b * r.y));
+  const Complex w1 = Complex(0, a) * z1, w2 = Complex(0, b) * z2;
+  const double scale = std::sqrt(2 / std::numbers::pi) / (solid.mu * tip.D);
+  const double lambda = solid.mu * (3 - solid.kappa) / (solid.kappa - 1);
+  const auto field = [&](double uxx, double uxy, double uyx, double uyy) {
+    const double trace = lambda * (uxx + uyy), shear = 0.5 * (uxy + uyx);
+    return AuxiliaryField{
+        trace + 2 * solid.mu * uxx, trace + 2 * solid.mu * uyy, 2 * solid.mu * shear, uxx, uyy, shear, uxx, uyx};
+  };
+  const double I = scale * sum, II = scale * 2 * b, p = 2 * a * b / sum, q = 2 * a / sum, t = sum / 2,
+               u = sum / (2 * b);
+  return {field(I * (z1.real() - p * z2.real()), I * (w1.real() - p * w2.real()), I * (q * z2.imag() - a * z1.imag()),
+                I * (q * w2.imag() - a * w1.imag())),
+          field(II * (z1.imag() - t * z2.imag()), II * (w1.imag() - t * w2.imag()),
+                II * (a * z1.real() - u * z2.real()), II * (a * w1.real() - u * w2.real()))};
+}
+
+}  // namespace
+
+AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, const RunningTip& tip, Vec2 r) {
+  // the fields of a running tip tend to those at rest as the square of the speed, but by differences
+  return tip.speed > 0.05 * solid.shear_speed ? running(solid, tip, r) : at_rest(solid, r);
 }
 
 }  // namespace riven

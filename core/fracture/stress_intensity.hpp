@@ -31,6 +31,7 @@ struct PlaneElasticity {
 /// A_I and A_II of a tip that runs with `speed` (m/s, below the Rayleigh speed).
 struct RunningTip {
   double beta1, beta2, A_I, A_II;
+  double speed, D;  ///< m/s; 0 and no D where the tip is as good as at rest
   RunningTip(const PlaneElasticity& solid, double speed);
 };
 
@@ -41,17 +42,17 @@ StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, 
 /// The same by intensities that are in the right proportion, such as those of the interaction integral.
 StressIntensity share_in_proportion(const PlaneElasticity& solid, double J, double speed, StressIntensity proportion);
 
-/// Stresses and displacement gradients around a tip at rest in the tip's frame (x along its heading): the first terms
-/// of Williams' series.
+/// Stresses and displacement gradients around a tip in its frame (x along its heading): the first terms of Williams'
+/// series at rest, those of a tip that runs steadily (Freund, sections 4.3 and 4.4) else.
 struct AuxiliaryField {
   double sxx, syy, sxy;   ///< Pa
   double exx, eyy, exy;   ///< strains
-  double dux_dx, duy_dx;  ///< of the displacement along the heading
+  double dux_dx, duy_dx;  ///< of the displacement along the heading; times minus the speed, its velocity
 };
 /// Under K_I = 1 and under K_II = 1 Pa m^0.5, at an offset r from the tip in its frame, m.
 struct AuxiliaryFields {
   AuxiliaryField mode[2];
 };
-AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, Vec2 r);
+AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, const RunningTip& tip, Vec2 r);
 
 }  // namespace riven

@@ -26,9 +26,11 @@ struct Tip {
   double J1 = 0, J2 = 0;     ///< J/m^2, along the grid's axes
   double K_I = 0, K_II = 0;  ///< Pa m^0.5, J shared out by the interaction integral where it holds, else by the opening
   double O_I = 0, O_II = 0;  ///< Pa m^0.5, J shared out by the opening of the crack behind the tip
-  double drive_I = 0, drive_II = 0;  ///< Pa m^0.5, sqrt(E' J) shared out likewise: held against K_Ic = sqrt(E' J_Ic)
-  double M_I = 0,
-         M_II = 0;  ///< Pa m^0.5, by the interaction integral; NaN where another crack or a bend is in the contour
+  /// Pa m^0.5, what growth goes by: intensities of a tip at rest, for which K_Ic = sqrt(E' J_Ic)
+  double drive_I = 0, drive_II = 0;
+  double release = 0;  ///< J/m^2, that go with them
+  /// Pa m^0.5, by the interaction integral; NaN where another crack or a bend is in the contour
+  double M_I = 0, M_II = 0;
   double reach[4] = {0, 0, 0, 0};  ///< cells from the tip to the contour: +x, +y, -x, -y
   bool adapted = false;            ///< the contour leaves out the tip of another crack
   bool crossed = false;            ///< another crack crosses the contour

@@ -61,7 +61,7 @@ Tip tip_with(double K_I, double K_II, double J) {
   Tip t;
   t.drive_I = K_I;
   t.drive_II = K_II;
-  t.J = J;
+  t.release = J;
   return t;
 }
 

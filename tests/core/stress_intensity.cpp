@@ -71,7 +71,7 @@ TEST(AuxiliaryField, IsWilliamsDisplacementAndItsHookeanStress) {
         const PlaneElasticity s(steel(), plane);
         const Vec2 r = 1e-3 * Vec2{std::cos(angle), std::sin(angle)};
         const double e = 1e-9;
-        const AuxiliaryField f = auxiliary_fields(s, r).mode[mode - 1];
+        const AuxiliaryField f = auxiliary_fields(s, RunningTip(s, 0), r).mode[mode - 1];
         const Vec2 dx = (displacement(s, r + Vec2{e, 0}, mode) - displacement(s, r - Vec2{e, 0}, mode)) * (0.5 / e);
         const Vec2 dy = (displacement(s, r + Vec2{0, e}, mode) - displacement(s, r - Vec2{0, e}, mode)) * (0.5 / e);
         const double size = 1 / std::sqrt(2 * std::numbers::pi * 1e-3) / s.mu;
@@ -86,22 +86,41 @@ TEST(AuxiliaryField, IsWilliamsDisplacementAndItsHookeanStress) {
       }
 }
 
-// J of the field itself over a circle is K^2 / E', with J_2 = 0 for one mode.
-TEST(AuxiliaryField, ContourIntegralIsOneOverTheModulus) {
+// J of the field itself over a circle is A / 2 mu, at rest and at any speed: a steadily running field makes the dynamic
+// contour integral independent of the contour.
+TEST(AuxiliaryField, ContourIntegralIsTheEnergyReleaseRate) {
   for (const Plane plane : {Plane::strain, Plane::stress})
-    for (int mode : {1, 2}) {
-      const PlaneElasticity s(steel(), plane);
-      double J = 0;
-      constexpr int n = 2000;
-      for (int i = 0; i < n; ++i) {
-        const double angle = std::numbers::pi * (2 * (i + 0.5) / n - 1);
-        const Vec2 normal{std::cos(angle), std::sin(angle)};
-        const AuxiliaryField f = auxiliary_fields(s, 0.01 * normal).mode[mode - 1];
-        const double W = 0.5 * (f.sxx * f.exx + f.syy * f.eyy + 2 * f.sxy * f.exy);
-        const Vec2 T{f.sxx * normal.x + f.sxy * normal.y, f.sxy * normal.x + f.syy * normal.y};
-        J += (W * normal.x - T.x * f.dux_dx - T.y * f.duy_dx) * 0.01 * 2 * std::numbers::pi / n;
+    for (const double share : {0.0, 0.1, 0.4, 0.7, 0.85})
+      for (int mode : {1, 2}) {
+        const PlaneElasticity s(steel(), plane);
+        const RunningTip tip(s, share * s.shear_speed);
+        double J = 0;
+        constexpr int n = 4000;
+        for (int i = 0; i < n; ++i) {
+          const double angle = std::numbers::pi * (2 * (i + 0.5) / n - 1);
+          const Vec2 normal{std::cos(angle), std::sin(angle)};
+          const AuxiliaryField f = auxiliary_fields(s, tip, 0.01 * normal).mode[mode - 1];
+          const double rate2 = tip.speed * tip.speed * (f.dux_dx * f.dux_dx + f.duy_dx * f.duy_dx);
+          const double W = 0.5 * (f.sxx * f.exx + f.syy * f.eyy + 2 * f.sxy * f.exy) + 0.5 * steel().density * rate2;
+          const Vec2 T{f.sxx * normal.x + f.sxy * normal.y, f.sxy * normal.x + f.syy * normal.y};
+          J += (W * normal.x - T.x * f.dux_dx - T.y * f.duy_dx) * 0.01 * 2 * std::numbers::pi / n;
+        }
+        EXPECT_NEAR(2 * s.mu * J / (mode == 1 ? tip.A_I : tip.A_II), 1, 1e-5) << share << " mode " << mode;
       }
-      EXPECT_NEAR(J * s.E, 1, 1e-6);
+}
+
+TEST(AuxiliaryField, OfASlowTipIsThatOfATipAtRest) {
+  const PlaneElasticity s(steel(), Plane::strain);
+  const RunningTip slow(s, 0.051 * s.shear_speed), rest(s, 0);
+  for (double angle = -3.1; angle < 3.15; angle += 0.31)
+    for (int mode : {0, 1}) {
+      const Vec2 r = 1e-3 * Vec2{std::cos(angle), std::sin(angle)};
+      const AuxiliaryField a = auxiliary_fields(s, slow, r).mode[mode], b = auxiliary_fields(s, rest, r).mode[mode];
+      const double size = 1 / std::sqrt(2 * std::numbers::pi * 1e-3);
+      for (const auto member : {&AuxiliaryField::sxx, &AuxiliaryField::syy, &AuxiliaryField::sxy})
+        EXPECT_NEAR(a.*member, b.*member, 0.005 * size) << angle;
+      for (const auto member : {&AuxiliaryField::dux_dx, &AuxiliaryField::duy_dx})
+        EXPECT_NEAR(a.*member, b.*member, 0.005 * size / s.mu) << angle;
     }
 }
 

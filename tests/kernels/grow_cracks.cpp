@@ -56,7 +56,7 @@ using Drive = std::function<void(Tip&)>;
 /// Opens every tip in mode I.
 void open(Tip& t) {
   t.drive_I = 2;
-  t.J = 3;
+  t.J = t.release = 3;
 }
 
 struct Driven {
@@ -403,7 +403,7 @@ TEST(GrowCracks, RunningTipsMeetWithoutJ) {
   for (const bool running : {false, true}) {
     Driven run(plate({crack("left", {{-1, 8.1}, {6, 8.1}}), crack("right", {{25, 8.1}, {10, 8.1}})}, 25), [&](Tip& t) {
       const bool near = t.length > (running ? 3.1 : -1);
-      t.drive_I = t.J = near || t.crack == 1 ? 0 : 2;
+      t.drive_I = t.J = t.release = near || t.crack == 1 ? 0 : 2;
     });
     run.steps(100);
     EXPECT_EQ(run.events(), running ? (std::vector{Kind::start, Kind::meet, Kind::meet}) : std::vector<Kind>{});

@@ -60,7 +60,7 @@ Field near_tip(const PlaneElasticity& solid, Vec2 r, Vec2 t, double K_I, double 
   double s[3] = {}, H[4] = {};
   for (int mode = 1; mode <= 2; ++mode) {
     const double K = mode == 1 ? K_I : K_II;
-    const AuxiliaryField a = auxiliary_fields(solid, local).mode[mode - 1];
+    const AuxiliaryField a = auxiliary_fields(solid, RunningTip(solid, 0), local).mode[mode - 1];
     s[0] += K * a.sxx;
     s[1] += K * a.syy;
     s[2] += K * a.sxy;
