@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -50,6 +51,13 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
+void print_cost_of_j(const Simulation& m) {
+  const auto task = std::find_if(m.tasks.begin(), m.tasks.end(), [](const Task& t) { return t.label == "J and K"; });
+  if (task != m.tasks.end() && m.fracture.evaluations > 0)
+    fmt::print("{} evaluations of J and K, {:.2f} us each\n", m.fracture.evaluations,
+               1e6 * task->seconds / static_cast<double>(m.fracture.evaluations));
+}
+
 struct Options {
   SceneOptions scene;
   std::string folder;
@@ -64,8 +72,10 @@ void run(const Options& o) {
   if (!o.quiet)
     print_header(simulation);
   const Summary s = run_scene(simulation, {folder, o.quiet});
-  if (o.profile)
+  if (o.profile) {
     print_tasks(s);
+    print_cost_of_j(simulation);
+  }
   if (!o.quiet)
     print_summary(s, folder);
 }

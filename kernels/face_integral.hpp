@@ -140,7 +140,7 @@ class FaceIntegral {
 
   const Fits& fits(int i, int j) {
     if (index_.empty())
-      index_.assign(static_cast<size_t>(width_ * height_), -1);
+      index_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), -1);
     int& at = index_[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
     if (at < 0) {
       at = static_cast<int>(fits_.size());

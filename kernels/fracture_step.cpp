@@ -77,8 +77,8 @@ class JSearch {
     task.domain = placed.domain;
     task.crack = tip.crack;
     task.heading = heading_of(s_.cracks, tip);
-    task.speed = tip.speed;
     task.solid = &solids_[static_cast<size_t>(tip.material)];
+    task.running = RunningTip(*task.solid, tip.speed);
     task.other_faces = rules.method != JMethod::pijc;
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
     task.interaction = rules.interaction;
@@ -128,7 +128,7 @@ class JSearch {
     const int step = tip.last ? -1 : 1;
     for (int k = end; k != other + step; k += step) {
       const Vec2 r = s_.cracks.plane[k] - task.domain.tip;
-      if (task.domain.slope(r, edge) > 0)
+      if (task.domain.at(r).slope(edge) > 0)
         return true;
     }
     return false;

@@ -79,37 +79,34 @@ class TipSummer {
     const JDomain& d = task.domain;
     for (int i = first; i < last; ++i) {
       const Vec2 r = Vec2{double(p.x[0][i]), double(p.x[1][i])} - d.tip;
-      double slope[4], any = 0;
-      for (int e = 0; e < 4; ++e)
-        any += slope[e] = d.slope(r, e);
-      if (any > 0)
-        add_band(task, i, r, slope);
+      const JWeight q = d.at(r);
+      if (q.slope_x > 0 || q.slope_y > 0)
+        add_band(task, i, r, q);
       if (task.inertia)
         add_inertia(task, i, r);
     }
   }
 
-  void add_band(TipTask& task, int i, Vec2 r, const double* slope) const {
+  void add_band(TipTask& task, int i, Vec2 r, const JWeight& q) const {
     const Particles<Real, 2>& p = s_.particles;
     const LawState<Real> state = law_state<Law>(p, i);
     const Mat2<double> F{state.F.xx, state.F.xy, state.F.yx, state.F.yy};
     const int body = p.body[i];
     const double m = p.mass[i] / s_.thickness[body];
-    const Vec2 v{double(p.v[0][i]), double(p.v[1][i])}, g{slope[left] - slope[right], slope[bottom] - slope[top]};
+    const Vec2 v{double(p.v[0][i]), double(p.v[1][i])}, g = q.gradient();
     const double density = 0.5 * dot(v, v) + law_.of(i).energy(state);
     const Vec2 s{state.xx * g.x + state.xy * g.y, state.xy * g.x + state.yy * g.y};
     const Vec2 F_g{F.xx * g.x + F.yx * g.y, F.xy * g.x + F.yy * g.y};
     const Vec2 H_s{(F.xx - 1) * s.x + F.yx * s.y, F.xy * s.x + (F.yy - 1) * s.y};
     task.sums.J -= m * (density * F_g - H_s);
     const double area = p.mass[i] * s_.specific_area[body] * state.J;
-    for (int e = 0; e < 4; ++e)
-      task.sums.filled[e] += area * slope[e];
+    task.sums.filled[q.edge_x] += area * q.slope_x;
+    task.sums.filled[q.edge_y] += area * q.slope_y;
     if (task.interaction)
-      add_interaction(task, RunningTip(*task.solid, task.speed), state, m, p.mass[i] * s_.specific_area[body], r, g, v);
+      add_interaction(task, state, m, p.mass[i] * s_.specific_area[body], r, g, v);
   }
 
-  void add_interaction(TipTask& task, const RunningTip& tip, const LawState<Real>& p, double m, double area, Vec2 r,
-                       Vec2 g, Vec2 v) const {
+  void add_interaction(TipTask& task, const LawState<Real>& p, double m, double area, Vec2 r, Vec2 g, Vec2 v) const {
     const Vec2 t = task.heading, n = turned(t);
     const Vec2 local{dot(r, t), dot(r, n)}, q{dot(g, t), dot(g, n)};
     // displacement gradient and stress in the tip's frame
@@ -117,9 +114,9 @@ class TipSummer {
     const double u1 = dot(ut, t), u2 = dot(ut, n);
     const Vec2 st{p.xx * t.x + p.xy * t.y, p.xy * t.x + p.yy * t.y};
     // velocity times that of the running field, which is - speed du/dx
-    const double vx = -tip.speed * dot(v, t), vy = -tip.speed * dot(v, n);
+    const double vx = -task.running.speed * dot(v, t), vy = -task.running.speed * dot(v, n);
     const double sxx = dot(st, t), sxy = dot(st, n), syy = p.xx + p.yy - sxx;
-    const AuxiliaryFields known = auxiliary_fields(*task.solid, tip, local);
+    const AuxiliaryFields known = auxiliary_fields(*task.solid, task.running, local);
     for (int mode = 0; mode < 2; ++mode) {
       const AuxiliaryField& a = known.mode[mode];
       const double energy = sxx * a.exx + syy * a.eyy + 2 * sxy * a.exy + vx * a.dux_dx + vy * a.duy_dx;

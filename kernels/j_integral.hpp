@@ -32,7 +32,7 @@ struct TipTask {
   bool other_faces = true;  ///< asks for the faces of other cracks
   bool bent_faces = true;   ///< and for those of its own crack where it bends
   const PlaneElasticity* solid = nullptr;
-  double speed = 0;          ///< m/s
+  RunningTip running;
   bool inertia = false;      ///< asks for TipSums::inertia
   bool interaction = false;  ///< and for TipSums::interaction
   TipSums sums{};

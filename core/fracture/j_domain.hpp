@@ -12,6 +12,7 @@
 // places are points of the area like any other.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 #include "core/exec/config.hpp"
 #include "core/math/vec.hpp"
@@ -20,6 +21,17 @@ namespace riven {
 
 /// Edges of the rectangle: numbers of JDomain::reach.
 enum Edge { right = 0, top = 1, left = 2, bottom = 3 };
+
+/// q and its slopes at a place. Along each axis only the edge on that side of the tip has a slope.
+struct JWeight {
+  double q;
+  int edge_x, edge_y;
+  double slope_x, slope_y;  ///< 1/m, how fast q falls towards these edges
+  RIVEN_INLINE Vec2 gradient() const {
+    return {edge_x == right ? -slope_x : slope_x, edge_y == top ? -slope_y : slope_y};
+  }
+  RIVEN_INLINE double slope(int edge) const { return edge == edge_x ? slope_x : edge == edge_y ? slope_y : 0; }
+};
 
 struct JDomain {
   Vec2 tip;
@@ -30,27 +42,23 @@ struct JDomain {
   RIVEN_INLINE double inner(int edge) const { return reach[edge] - ramp[edge]; }
 
   /// q = Q(x) R(y) at an offset r from the tip.
-  RIVEN_INLINE double weight(Vec2 r) const { return fall(r.x, 0) * fall(r.y, 1); }
-  /// The slope of the weight across one edge, per m; dq/dx = slope(left) - slope(right).
-  RIVEN_INLINE double slope(Vec2 r, int edge) const {
-    const double along = edge % 2 == 0 ? r.x : r.y, across = edge % 2 == 0 ? r.y : r.x;
-    const double s = ((edge < 2 ? along : -along) - reach[edge]) / ramp[edge];
-    return std::max(0.0, 1 - std::fabs(s)) / ramp[edge] * fall(across, 1 - edge % 2);
+  RIVEN_INLINE JWeight at(Vec2 r) const {
+    const int x = r.x > 0 ? right : left, y = r.y > 0 ? top : bottom;
+    const double s = place(std::fabs(r.x), x), t = place(std::fabs(r.y), y), Q = fall(s), R = fall(t);
+    return {Q * R, x, y, (1 - std::fabs(s)) / ramp[x] * R, (1 - std::fabs(t)) / ramp[y] * Q};
   }
-  RIVEN_INLINE Vec2 gradient(Vec2 r) const {
-    return {slope(r, left) - slope(r, right), slope(r, bottom) - slope(r, top)};
-  }
-  /// What the slope across an edge adds up to over the area: the length of the edge.
+  RIVEN_INLINE double weight(Vec2 r) const { return at(r).q; }
+  /// What the slope towards an edge adds up to over the area: the length of the edge.
   RIVEN_INLINE double length(int edge) const {
     return edge % 2 == 0 ? reach[top] + reach[bottom] : reach[right] + reach[left];
   }
 
  private:
-  RIVEN_INLINE double fall(double r, int axis) const {
-    const int edge = r > 0 ? axis : axis + 2;
-    const double s = std::min(1.0, std::max(-1.0, (std::fabs(r) - reach[edge]) / ramp[edge]));
-    return s < 0 ? 1 - 0.5 * (1 + s) * (1 + s) : 0.5 * (1 - s) * (1 - s);
+  /// From -1, where q begins to fall towards an edge, to 1, where it has become 0.
+  RIVEN_INLINE double place(double r, int edge) const {
+    return std::min(1.0, std::max(-1.0, (r - reach[edge]) / ramp[edge]));
   }
+  RIVEN_INLINE static double fall(double s) { return s < 0 ? 1 - 0.5 * (1 + s) * (1 + s) : 0.5 * (1 - s) * (1 - s); }
 };
 
 }  // namespace riven

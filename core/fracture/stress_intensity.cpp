@@ -20,9 +20,7 @@ RunningTip::RunningTip(const PlaneElasticity& solid, double v) {
   const double s = v / solid.shear_speed, d = v / solid.dilatational_speed;
   // D is a difference of nearly equal numbers, of the size of s^2: below this the limit is closer
   if (s < 1e-3) {
-    beta1 = beta2 = 1;
     A_I = A_II = (solid.kappa + 1) / 4;
-    speed = D = 0;
     return;
   }
   beta1 = std::sqrt(1 - d * d);

@@ -30,8 +30,9 @@ struct PlaneElasticity {
 
 /// A_I and A_II of a tip that runs with `speed` (m/s, below the Rayleigh speed).
 struct RunningTip {
-  double beta1, beta2, A_I, A_II;
-  double speed, D;  ///< m/s; 0 and no D where the tip is as good as at rest
+  double beta1 = 1, beta2 = 1, A_I = 0, A_II = 0;
+  double speed = 0, D = 0;  ///< m/s; 0 and no D where the tip is as good as at rest
+  RunningTip() = default;
   RunningTip(const PlaneElasticity& solid, double speed);
 };
 

@@ -33,7 +33,7 @@ TEST(JDomain, GradientIsThatOfTheWeight) {
   const double e = 1e-6;
   for (double y = -3.9; y < 5; y += 0.37)
     for (double x = -1.9; x < 4; x += 0.29) {
-      const Vec2 g = d.gradient({x, y});
+      const Vec2 g = d.at({x, y}).gradient();
       EXPECT_NEAR(g.x, (d.weight({x + e, y}) - d.weight({x - e, y})) / (2 * e), 1e-5);
       EXPECT_NEAR(g.y, (d.weight({x, y + e}) - d.weight({x, y - e})) / (2 * e), 1e-5);
     }
@@ -49,7 +49,7 @@ TEST(JDomain, SlopesAddUpToTheEdgesOnAnyRegularLattice) {
       for (double y = -6 + shift; y < 6; y += spacing)
         for (double x = -6 + 0.7 * shift; x < 6; x += spacing)
           for (int e = 0; e < 4; ++e)
-            sum[e] += d.slope({x, y}, e) * spacing * spacing;
+            sum[e] += d.at({x, y}).slope(e) * spacing * spacing;
       for (int e = 0; e < 4; ++e)
         EXPECT_NEAR(sum[e], d.length(e), 1e-12);
     }
@@ -83,7 +83,7 @@ TEST(PlaceDomain, WeightIsZeroAtEveryTipThatCanBeLeftOut) {
   EXPECT_EQ(p.domain.weight({0, 0}), 1);
   for (const Vec2 r : others) {
     EXPECT_EQ(p.domain.weight(r), 0) << r.x << " " << r.y;
-    EXPECT_EQ(norm(p.domain.gradient(r)), 0) << r.x << " " << r.y;
+    EXPECT_EQ(norm(p.domain.at(r).gradient()), 0) << r.x << " " << r.y;
   }
 }
 
