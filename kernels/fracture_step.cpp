@@ -40,6 +40,7 @@ class JSearch {
  public:
   JSearch(Simulation& m, bool report)
       : m_(m), s_(m.state), report_(report), half_(0.5 * m.scene.fracture.contour * m.scene.cell) {
+    solids_.reserve(m.scene.materials.size());
     for (const Material& material : m.scene.materials)
       solids_.emplace_back(material, m.scene.plane);
   }
@@ -51,6 +52,7 @@ class JSearch {
         due.push_back({&tip, {half_, half_, half_, half_}});
     while (!due.empty()) {
       std::vector<TipTask> tasks;
+      tasks.reserve(due.size());
       for (Due& d : due)
         tasks.push_back(place(d));
       sum_around_tips(m_.space, m_.plan, s_, tasks);
