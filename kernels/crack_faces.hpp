@@ -16,7 +16,7 @@ namespace riven {
 
 /// Sums for the fits of one velocity field of one node; offsets are from the node, in cells.
 struct FieldFit {
-  static constexpr int values = 8;  ///< energy part of Eshelby's tensor, then the whole: [11 12 21 22] each, Pa
+  static constexpr int values = 5;  ///< energy per first volume, then Eshelby's tensor [11 12 21 22], Pa
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< in cells
   double f[values] = {}, fx[values] = {}, fy[values] = {};
 

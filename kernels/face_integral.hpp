@@ -1,9 +1,13 @@
 // The integral of q E_Kj n_j along the faces of cracks that lie in a tip's domain (j_domain.hpp).
 //
-// An open face bears no traction: of Eshelby's tensor only (W + K) F_jK n_j is left. On faces in contact the traction
-// is that of the stresses beside them (Nairn and Aimene, section 2.2.2, step 5). The target crack's own faces take part
-// where they are not in line with its tip.
+// An open face bears no traction: of Eshelby's tensor only (W + K) F_jK n_j ds is left, which is the energy per first
+// volume on the first face, (W0 + K0) N_K dS. It is taken where that face is, and not where the crack's plane runs
+// between the two: across an opening of a cell energies would be carried on half a cell too far. Faces in contact meet
+// in the plane; the traction on them is that of the stresses beside them (Nairn and Aimene, section 2.2.2, step 5). The
+// target crack's own faces take part where they are not in line with its tip. A segment whose ends another crack has
+// drawn apart spans that crack's opening, and has no solid beside it.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -29,14 +33,13 @@ class FaceIntegral {
     const JDomain& d = task_.domain;
     const double inv = 1 / l.h;
     const Vec2 c = (d.tip - l.origin) * inv;
-    corner_[0] = static_cast<int>(std::floor(c.x - d.outer(left) * inv)) - 1;
-    corner_[1] = static_cast<int>(std::floor(c.y - d.outer(bottom) * inv)) - 1;
-    const int i1 = static_cast<int>(std::floor(c.x + d.outer(right) * inv)) + 2;
-    const int j1 = static_cast<int>(std::floor(c.y + d.outer(top) * inv)) + 2;
+    const auto node = [](double x, int last) { return std::clamp(static_cast<int>(std::floor(x)), 1, last - 2); };
+    corner_[0] = node(c.x - d.outer(left) * inv - around, l.nx);
+    corner_[1] = node(c.y - d.outer(bottom) * inv - around, l.ny);
+    const int i1 = node(c.x + d.outer(right) * inv + around, l.nx);
+    const int j1 = node(c.y + d.outer(top) * inv + around, l.ny);
     width_ = i1 - corner_[0] + 1;
     height_ = j1 - corner_[1] + 1;
-    if (corner_[0] < 1 || corner_[1] < 1 || i1 >= l.nx - 1 || j1 >= l.ny - 1)
-      return;
     for (int j = corner_[1]; j <= j1; ++j)
       for (int i = corner_[0]; i <= i1; ++i)
         add_cell(j * l.nx + i);
@@ -54,7 +57,7 @@ class FaceIntegral {
       const int k = view_.cell_segment[at];
       const Vec2 a = view_.plane[k], b = view_.plane[k + 1], middle = 0.5 * (a + b);
       if (cell_of(middle) == cell)
-        add_segment(k, middle, b - a, cell);
+        add_segment(k, middle, b - a);
     }
   }
 
@@ -63,7 +66,7 @@ class FaceIntegral {
     return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
   }
 
-  void add_segment(int k, Vec2 middle, Vec2 along, int cell) {
+  void add_segment(int k, Vec2 middle, Vec2 along) {
     const double q = task_.domain.weight(middle - task_.domain.tip), length = norm(along);
     if (!(q > 0) || !(length > 0))
       return;
@@ -89,18 +92,31 @@ class FaceIntegral {
         {},
         norm(middle - view_.plane[view_.start[crack]]) < reach || norm(middle - view_.plane[last]) < reach,
         std::numeric_limits<double>::infinity()};
+    const Vec2 first = s_.cracks.plane0[k + 1] - s_.cracks.plane0[k];
+    if (length > torn * norm(first))
+      return;
     const bool touches = in_contact(k, normal);
     for (const Side side : {Side::above, Side::below}) {
-      SurfacePoint face{point, side, middle, cell};
+      const Vec2 x = touches ? middle : middle_of_face(k, side);
+      SurfacePoint face{point, side, x, cell_of(x)};
       double value[FieldFit::values] = {}, area = 0;
       values_at(face, value, area);
       if (!(area > 0))
         continue;
-      const Vec2 n = side == Side::above ? -normal : normal;  // out of the solid
-      const double* e = value + (touches ? 4 : 0);
-      const double scale = q * length / area;
-      task_.sums.faces += scale * Vec2{e[0] * n.x + e[1] * n.y, e[2] * n.x + e[3] * n.y};
+      const double out = side == Side::above ? -1 : 1;  // of the solid
+      if (touches) {
+        const Vec2 n = (out * q * length / area) * normal;
+        task_.sums.faces += Vec2{value[1] * n.x + value[2] * n.y, value[3] * n.x + value[4] * n.y};
+      } else {
+        // carried on past a corner, where it ends, energy could become negative
+        task_.sums.faces += (out * q * std::max(0.0, value[0]) / area) * turned(first);
+      }
     }
+  }
+
+  Vec2 middle_of_face(int k, Side side) const {
+    const exec::Array<Vec2>& at = side == Side::above ? s_.cracks.upper : s_.cracks.lower;
+    return 0.5 * (at[k] + at[k + 1]);
   }
 
   bool in_contact(int k, Vec2 normal) const {
@@ -118,6 +134,9 @@ class FaceIntegral {
     const int i = static_cast<int>(std::floor(X.x)), j = static_cast<int>(std::floor(X.y));
     for (int n = 0; n < 4; ++n) {
       const int ni = i + n % 2, nj = j + n / 2, node = nj * l.nx + ni;
+      if (static_cast<unsigned>(ni - corner_[0]) >= static_cast<unsigned>(width_) ||
+          static_cast<unsigned>(nj - corner_[1]) >= static_cast<unsigned>(height_))
+        continue;
       const Vec2 r{X.x - ni, X.y - nj};
       const double N = (1 - std::fabs(r.x)) * (1 - std::fabs(r.y));
       if (!(N > 0))
@@ -179,16 +198,10 @@ class FaceIntegral {
     const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
     const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
     const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
-    // rows: K, columns: j
-    const double energy[4] = {W * F.xx, W * F.yx, W * F.xy, W * F.yy};
-    const double value[FieldFit::values] = {energy[0],
-                                            energy[1],
-                                            energy[2],
-                                            energy[3],
-                                            energy[0] - (xx * (F.xx - 1) + xy * F.yx),
-                                            energy[1] - (xy * (F.xx - 1) + yy * F.yx),
-                                            energy[2] - (xx * F.xy + xy * (F.yy - 1)),
-                                            energy[3] - (xy * F.xy + yy * (F.yy - 1))};
+    // rows of the tensor: K, columns: j
+    const double value[FieldFit::values] = {
+        W * state.J, W * F.xx - (xx * (F.xx - 1) + xy * F.yx), W * F.yx - (xy * (F.xx - 1) + yy * F.yx),
+        W * F.xy - (xx * F.xy + xy * (F.yy - 1)), W * F.yy - (xy * F.xy + yy * (F.yy - 1))};
     const double area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
     fits[static_cast<size_t>(CrackFields::field_of(s_.fields.fields[i], n * Shape::width + m))].add(area * S, X - I,
                                                                                                     Y - J, value);
@@ -196,6 +209,8 @@ class FaceIntegral {
 
   static constexpr double straight = 1e-3;    ///< sine of the angle to the tip's heading up to which a face is in line
   static constexpr double bent = 0.2;         ///< and from which on the crack is bent for the interaction integral
+  static constexpr double torn = 2;           ///< length of a segment over its first one from which it spans an opening
+  static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
   static constexpr double touching = 0.05;    ///< opening in cells below which faces may press on each other
   static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
 
