@@ -71,7 +71,8 @@ void read_cracks(const Table& root, Scene& s) {
   s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
   s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
   size_t entry = 0;
-  for (const Table& t : root.tables("crack", {"name", "points", "file", "resolution", "contact", "growth", "grows"})) {
+  for (const Table& t :
+       root.tables("crack", {"name", "points", "origin", "file", "resolution", "contact", "growth", "grows"})) {
     CrackLine crack;
     crack.name = read_name(t, "crack", entry++);
     crack.resolution = t.quantity("resolution", dimension::length, range::positive, crack.resolution, "particle size");
@@ -86,9 +87,14 @@ void read_cracks(const Table& root, Scene& s) {
       t.refuse(nullptr, t.has("file") ? "the crack has points and a file" : "the crack has no points", "points or file",
                "points = [[\"0 mm\", \"5 mm\"], [\"10 mm\", \"5 mm\"]]");
     if (t.has("file")) {
+      if (t.has("origin"))
+        t.refuse("origin", "a file says where its cracks are", "", "leave it out, or give points");
       read_rows(t, crack, s);
     } else {
       crack.points = t.points("points", 2);
+      const Vec2 origin = t.vector("origin", dimension::length, {0, 0});
+      for (Vec2& point : crack.points)
+        point += origin;
       s.cracks.push_back(std::move(crack));
     }
   }

@@ -180,6 +180,16 @@ TEST(ReadScene, DeterministicMeansOrderedScatter) {
   EXPECT_NE(t.what.find("deterministic"), std::string::npos);
 }
 
+TEST(ReadScene, PointsOfACrackMayStartFromAnOrigin) {
+  const Scene s = read(good_scene, {"crack.edge.origin=[\"2 mm\", \"-3 mm\"]"});
+  EXPECT_DOUBLE_EQ(s.cracks[0].points[0].x, 0.001);
+  EXPECT_DOUBLE_EQ(s.cracks[0].points[1].x, 0.027);
+  EXPECT_DOUBLE_EQ(s.cracks[0].points[1].y, 0.047);
+  const Trouble t = trouble_of(changed("points = [[\"-1 mm\", \"50 mm\"], [\"25 mm\", \"50 mm\"]]",
+                                       "file = \"some.csv\"\norigin = [\"2 mm\", \"0 mm\"]"));
+  EXPECT_NE(t.where.find("crack.0.origin"), std::string::npos) << t.where;
+}
+
 TEST(ReadScene, CracksFromAFile) {
   const auto folder = std::filesystem::temp_directory_path() / ("riven_cracks_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
