@@ -1,0 +1,105 @@
+// J does not know where the lines of the grid are: the same plate with its tip at nine places of a cell, and turned on
+// the grid by 30 degrees.
+#include <numbers>
+
+#include "tests/physics/plates.hpp"
+
+namespace riven {
+namespace {
+
+using namespace gates;
+
+constexpr double mm = 1e-3;
+
+std::string length(double x) {
+  return fmt::format("{:.9g} mm", 1e3 * x);
+}
+
+/// J of the edge crack alone, 8-cell contour, with its tip moved by a part of a cell from where it is shipped. The
+/// grips are as thick as a cell.
+double J_of_moved_tip(double cell, Vec2 cells) {
+  const Vec2 tip = Vec2{25 * mm, 0} + cell * cells;
+  const std::string y = length(tip.y), grip = length(std::max(cell, 1 * mm) + 50 * mm);
+  Plate plate("sent", {fmt::format("grid.cell={}", length(cell)), "grid.lower=[\"-8 mm\", \"-56 mm\"]",
+                       "grid.upper=[\"56 mm\", \"56 mm\"]",
+                       fmt::format("crack.H.points=[[\"-1 mm\", \"{}\"], [\"{}\", \"{}\"]]", y, length(tip.x), y),
+                       fmt::format("grip.top.rectangle.upper.1={}", grip),
+                       fmt::format("grip.bottom.rectangle.lower.1=-{}", grip)});
+  plate.hold();
+  return plate.tip(8).J;
+}
+
+/// Spread of J over the nine places at thirds of a cell, over its mean. J itself changes by 0.2 % per cell of crack
+/// length here.
+void expect_same_at_nine_places(double cell) {
+  double low = std::numeric_limits<double>::infinity(), high = 0, sum = 0;
+  for (const double y : {-1. / 3, 0., 1. / 3})
+    for (const double x : {-1. / 3, 0., 1. / 3}) {
+      const double J = J_of_moved_tip(cell, {x, y});
+      fmt::print("tip moved by {:+.3f} {:+.3f} cells: J {:.1f} J/m^2\n", x, y, J);
+      low = std::min(low, J);
+      high = std::max(high, J);
+      sum += J / 9;
+    }
+  report(fmt::format("J at nine places of a cell of {} mm, largest less smallest over the mean", 1e3 * cell),
+         (high - low) / sum, "0.04");
+  EXPECT_LT((high - low) / sum, 0.04);
+}
+
+TEST(TipOnTheGrid, MayBeAnywhereInACell) {
+  expect_same_at_nine_places(2 * mm);
+}
+
+TEST(TipOnTheGrid, DISABLED_MayBeAnywhereInAHalfMillimetreCell) {
+  expect_same_at_nine_places(0.5 * mm);
+}
+
+/// The plate with an edge crack, loaded by the same forces on the particles of the last 2 mm of either end, turned
+/// about its centre.
+Scene turned_plate(double cell, double angle) {
+  const Vec2 centre{25 * mm, 0}, ex{std::cos(angle), std::sin(angle)}, ey = turned(ex);
+  const auto place = [&](Vec2 x) { return centre + (x.x - centre.x) * ex + (x.y - centre.y) * ey; };
+  const auto block = [&](double x0, double y0, double x1, double y1) {
+    return Polygon{{place({x0, y0}), place({x1, y0}), place({x1, y1}), place({x0, y1})}};
+  };
+  Scene s = shipped("sent", {fmt::format("grid.cell={}", length(cell)), "grid.lower=[\"-56 mm\", \"-64 mm\"]",
+                             "grid.upper=[\"104 mm\", \"64 mm\"]"});
+  s.grips.clear();
+  s.grid_damping->value = 34e3;  // 1/s, about critical for the halves that swing about the ligament
+  s.bodies[0].region = block(0, -50 * mm, 50 * mm, 50 * mm);
+  for (Vec2& point : s.cracks[0].points)
+    point = place(point);
+  for (const double side : {-1., 1.}) {
+    Load load;
+    load.name = side > 0 ? "up" : "down";
+    load.region = side > 0 ? block(0, 48 * mm, 50 * mm, 50 * mm) : block(0, -50 * mm, 50 * mm, -48 * mm);
+    const auto rise = [](double t) { return t < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * t / ramp)) : 1; };
+    const double traction = 1e6;  // Pa
+    const Vec2 force = side * traction * 50 * mm * s.thickness * ey;
+    load.value[0] = {force.x, rise, ""};
+    load.value[1] = {force.y, rise, ""};
+    s.loads.push_back(load);
+  }
+  return s;
+}
+
+void expect_same_when_turned(double cell) {
+  double J[2];
+  for (const int turn : {0, 1}) {
+    Plate plate(turned_plate(cell, turn * std::numbers::pi / 6));
+    const Rest rest = plate.hold();
+    const Tip tip = plate.tip(8);
+    J[turn] = tip.J;
+    fmt::print("turned by {} degrees: J {:.3f} J/m^2, J1 {:.3f}, J2 {:.3f}, K_I {:.5g}, K_II {:.4g}, drift {:.4f}\n",
+               30 * turn, tip.J, tip.J1, tip.J2, tip.K_I, tip.K_II, rest.drift);
+  }
+  report("J of a plate turned by 30 degrees over that of the plate along the grid, less 1", J[1] / J[0] - 1, "0.04");
+  EXPECT_LT(std::abs(J[1] / J[0] - 1), 0.04);
+}
+
+TEST(TipOnTheGrid, DISABLED_MayBeTurnedOnHalfMillimetreCells) {
+  expect_same_when_turned(0.5 * mm);
+}
+
+}  // namespace
+}  // namespace riven
