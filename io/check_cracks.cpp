@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/names.hpp"
 #include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
 
@@ -25,14 +26,16 @@ double length(const CrackLine& c) {
   return sum;
 }
 
-/// True when some point of the crack, looked at every `spacing`, lies in a body.
-bool meets_body(const Scene& s, const CrackLine& c, double spacing) {
+/// True when some point of the crack, looked at every `spacing`, lies in a body, and in the region if there is one.
+bool meets_body(const Scene& s, const CrackLine& c, double spacing, const std::optional<Region>& region = {}) {
   for (size_t i = 1; i < c.points.size(); ++i) {
     const Vec2 a = c.points[i - 1], d = c.points[i] - a;
     const int n = static_cast<int>(std::ceil(norm(d) / spacing)) + 1;
-    for (int k = 0; k < n; ++k)
-      if (solid(s, a + d * ((k + 0.5) / n)))
+    for (int k = 0; k < n; ++k) {
+      const Vec2 p = a + d * ((k + 0.5) / n);
+      if (solid(s, p) && (!region || contains(*region, p)))
         return true;
+    }
   }
   return false;
 }
@@ -60,6 +63,19 @@ void check_growth(const Scene& s) {
     refuse(s, "growth", "cracks are to grow but none that may has a tip in a body",
            fmt::format("{} cracks", s.cracks.size()), "an end inside a body, off its border and off other cracks",
            "no [growth]");
+}
+
+void check_traction(const Scene& s, const CrackLine& c, double spacing) {
+  const ContactLaw law = c.contact.value_or(s.contact).law;
+  if (law == ContactLaw::bonded || law == ContactLaw::interface)
+    refuse(s, "crack " + c.name, "tractions on faces that contact joins", fmt::format("law = \"{}\"", name_of(law)),
+           "a law of contact that lets faces part", "law = \"frictionless\"");
+  if (c.traction->kind != TractionKind::pressure && s.surface_update == SurfaceUpdate::flip)
+    refuse(s, "crack " + c.name, "cohesive faces that move by flip gain energy in every step",
+           "surface_update = \"flip\"", "surface_update = \"xpic\" or \"pic\" in [cracks]");
+  if (c.traction->region && !meets_body(s, c, spacing, c.traction->region))
+    refuse(s, "crack " + c.name, "no part of the crack in a body lies in the region of its traction",
+           text(bounds(*c.traction->region)), "a region that the crack passes through");
 }
 
 }  // namespace
@@ -90,6 +106,8 @@ void check_cracks(const Scene& s) {
     if (!meets_body(s, c, spacing))
       refuse(s, "crack " + c.name, "no part of the crack lies in a body",
              text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body");
+    if (c.traction)
+      check_traction(s, c, spacing);
   }
   check_growth(s);
 }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
+#include "core/state/tractions.hpp"
 #include "io/crack_opening.hpp"
 #include "io/frames.hpp"
 
@@ -7,15 +9,9 @@ namespace riven {
 
 std::vector<CrackOpening> crack_openings(const Cracks& cracks) {
   std::vector<CrackOpening> all(static_cast<std::size_t>(cracks.points()));
-  for (int c = 0; c < cracks.count(); ++c) {
-    const int first = cracks.start[static_cast<std::size_t>(c)], end = cracks.start[static_cast<std::size_t>(c) + 1];
-    for (int i = first; i < end; ++i) {
-      const Vec2 along = cracks.plane[i + 1 < end ? i + 1 : i] - cracks.plane[i > first ? i - 1 : i];
-      const double length = norm(along);
-      const Vec2 tangent = length > 0 ? along * (1 / length) : Vec2{};
-      const Vec2 opening = cracks.upper[i] - cracks.lower[i];
-      all[static_cast<std::size_t>(i)] = {opening, dot(opening, turned(tangent)), dot(opening, tangent)};
-    }
+  for (int i = 0; i < cracks.points(); ++i) {
+    const FacePair opening = face_opening(cracks, i);
+    all[static_cast<std::size_t>(i)] = {cracks.upper[i] - cracks.lower[i], opening.normal, opening.sliding};
   }
   return all;
 }
@@ -68,6 +64,17 @@ PolyData crack_poly(const Cracks& cracks) {
                     vectors("opening", [&](int i) { return openings[static_cast<std::size_t>(i)].vector; }),
                     {"normal_opening", 1, "m", normal},
                     {"sliding", 1, "m", sliding}};
+  if (!cracks.traction.empty()) {
+    std::vector<double> damage, taken;
+    for (int i = 0; i < n; ++i) {
+      damage.push_back(std::min(cracks.cohesive[i].worst, 1.0));
+      taken.push_back(cracks.cohesive[i].dissipated);
+    }
+    PolyArray traction = vectors("traction", [&](int i) { return traction_on(cracks, i); });
+    traction.unit = "Pa";
+    d.point_arrays.insert(d.point_arrays.end(),
+                          {traction, {"softening", 1, "", damage}, {"dissipated", 1, "J/m^2", taken}});
+  }
   d.cell_arrays = {{"crack", 1, "", of_cell}};
   return d;
 }

@@ -32,6 +32,8 @@ class Recorder {
     std::vector<double> v{s.clock.time, s.clock.dt, e.kinetic,        e.strain,  e.external_work,
                           e.damping,    e.contact,  e.numerical(),    p.error(), p.linear.x,
                           p.linear.y,   p.angular,  p.angular_error()};
+    if (m_.plan.tractions)
+      v.insert(v.end(), {e.cohesive, e.debonding});
     for (const ConstraintOwner& o : s.constraints.owners)
       v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
     if (m_.plan.growth)
@@ -65,6 +67,8 @@ class Recorder {
                                  {"momentum_y", "kg m/s"},
                                  {"angular_momentum", "kg m^2/s"},
                                  {"angular_momentum_error", ""}};
+    if (m.plan.tractions)
+      c.insert(c.end(), {{"cohesive", "J"}, {"debonding", "J"}});
     for (const ConstraintOwner& o : m.state.constraints.owners)
       for (const auto& [what, unit] :
            {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
@@ -121,8 +125,8 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   out.effects = m.plan.effects();
   for (const Task& t : m.tasks)
     out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
-  out.energy = {e.kinetic, e.strain,   e.external_work, e.damping,
-                e.contact, e.fracture, e.numerical(),   e.relative_error()};
+  out.energy = {e.kinetic, e.strain,   e.cohesive,  e.external_work, e.damping,
+                e.contact, e.fracture, e.debonding, e.numerical(),   e.relative_error()};
   out.momentum_error = s.ledger.momentum.error();
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);

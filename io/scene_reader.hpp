@@ -20,6 +20,9 @@ void read_output(const Table& root, Scene& s);      ///< [output], [[probe]]
 /// The table `growth` of this one, if there is one.
 std::optional<GrowthRule> read_growth(const Table& t);
 
+/// [crack.traction]
+TractionSettings read_traction(const Table& t);
+
 /// The one of rectangle, disk and polygon that the table has.
 Region read_region(const Table& t);
 

@@ -71,14 +71,18 @@ void read_cracks(const Table& root, Scene& s) {
   s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
   s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
   size_t entry = 0;
-  for (const Table& t :
-       root.tables("crack", {"name", "points", "origin", "file", "resolution", "contact", "growth", "grows"})) {
+  for (const Table& t : root.tables(
+           "crack", {"name", "points", "origin", "file", "resolution", "contact", "traction", "growth", "grows"})) {
     CrackLine crack;
     crack.name = read_name(t, "crack", entry++);
     crack.resolution = t.quantity("resolution", dimension::length, range::positive, crack.resolution, "particle size");
     if (t.has("contact"))
       crack.contact =
           read_contact(t.table("contact", {"law", "friction", "normal_stiffness", "shear_stiffness"}), s.contact);
+    if (t.has("traction"))
+      crack.traction = read_traction(
+          t.table("traction", {"kind", "rectangle", "disk", "polygon", "pressure", "strength", "toughness",
+                               "shear_strength", "shear_toughness", "peak", "knee", "knee_strength", "decay"}));
     crack.growth = read_growth(t);
     crack.grows = t.flag("grows", true);
     if (crack.growth && !crack.grows)

@@ -75,14 +75,11 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
     return Json{{"label", t.label}, {"effect", t.effect}, {"calls", t.calls}, {"seconds", number(t.seconds)}};
   });
   const Summary::Energy& e = s.energy;
-  j["energy"] = {{"kinetic", number(e.kinetic)},
-                 {"strain", number(e.strain)},
-                 {"external_work", number(e.external_work)},
-                 {"damping", number(e.damping)},
-                 {"contact", number(e.contact)},
-                 {"fracture", number(e.fracture)},
-                 {"numerical", number(e.numerical)},
-                 {"relative_error", number(e.relative_error)}};
+  j["energy"] = {{"kinetic", number(e.kinetic)},     {"strain", number(e.strain)},
+                 {"cohesive", number(e.cohesive)},   {"external_work", number(e.external_work)},
+                 {"damping", number(e.damping)},     {"contact", number(e.contact)},
+                 {"fracture", number(e.fracture)},   {"debonding", number(e.debonding)},
+                 {"numerical", number(e.numerical)}, {"relative_error", number(e.relative_error)}};
   j["momentum_error"] = number(s.momentum_error);
   j["angular_momentum_error"] = number(s.angular_momentum_error);
   j["warnings"] = by_name(s.warnings, &Summary::Warning::kind, [](const Summary::Warning& w) {

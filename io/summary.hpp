@@ -18,7 +18,8 @@ struct Summary {
     double seconds = 0;
   };
   struct Energy {
-    double kinetic = 0, strain = 0, external_work = 0, damping = 0, contact = 0, fracture = 0;  ///< J
+    double kinetic = 0, strain = 0, cohesive = 0, external_work = 0, damping = 0, contact = 0;  ///< J
+    double fracture = 0, debonding = 0;                                                         ///< J
     double numerical = 0;       ///< J, gained (+) or lost (-) by the scheme
     double relative_error = 0;  ///< |numerical| over the largest energy of the run
   };

@@ -26,6 +26,11 @@ void find_fields(Simulation& m) {
   });
 }
 
+void load_faces(Simulation& m) {
+  with_shape(m.plan.shape,
+             [&](auto shape) { apply_tractions<typename decltype(shape)::type>(m.space, m.state, m.point_forces); });
+}
+
 void move_with_grid(Simulation& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {

@@ -6,6 +6,7 @@ namespace riven {
 
 void hash_if_due(Simulation&);
 void find_fields(Simulation&);
+void load_faces(Simulation&);
 void move_with_grid(Simulation&);
 
 }  // namespace riven

@@ -59,26 +59,6 @@ struct Extrapolation {
     row.add(mass, Quad<double>{double(q[0]), double(q[1]), double(q[2]), double(q[3])}, x, i);
   }
 
-  /// What the surfaces s[first] to s[last - 1] of a point find on the nodes around them.
-  RIVEN_INLINE void sum_surfaces(SurfacePoint* s, const Around* a, int first, int last, MotionSums* sums) const {
-    const Lattice& l = grid.lattice;
-    int slot[width * width][2];
-    for (int n = 0; n < width * width; ++n) {
-      const int i = a[first].x.base + n % width, j = a[first].y.base + n / width;
-      slots_of_surfaces(view, s, j * l.nx + i, l.position(i, j), slot[n]);
-    }
-    for (int k = first; k < last; ++k)
-      for (int j = 0; j < width; ++j) {
-        RowSums row;
-#pragma GCC unroll 3
-        for (int i = 0; i < width; ++i) {
-          const int at = slot[j * width + i][k], there = std::max(at, 0);
-          add(row, a[k].x, i, there, at < 0 ? 0. : double(grid.mass[there]));
-        }
-        sums[k].add(row, a[k].y, j);
-      }
-  }
-
   /// Asks for the nodes around a point some steps ahead, and, once those are known, for what they say of cracks: the
   /// points of a crack follow each other over the grid, where no processor would look next.
   RIVEN_INLINE void prefetch_nodes(Vec2 x) const {
@@ -106,8 +86,10 @@ struct Extrapolation {
     }
   }
 
-  /// Motions of the upper and the lower surface of a point.
-  void of_surfaces(const CrackPoint& point, const Vec2* x, PointMotion* motion) const {
+  /// use(k, around, slot) for the upper (k = 0) and the lower surface of a point: slot[n][k] is the slot of the n-th
+  /// node around it, row by row, or -1. Not at all if the surfaces are off the grid.
+  template <class Use>
+  RIVEN_INLINE void each_surface(const CrackPoint& point, const Vec2* x, const Use& use) const {
     const Lattice& l = grid.lattice;
     const Around a[2] = {around(x[0]), around(x[1])};
     if (!on_grid(a[0]) || !on_grid(a[1]))
@@ -116,15 +98,33 @@ struct Extrapolation {
       return Shape::cell((at.y - l.origin.y) * inv_h) * l.nx + Shape::cell((at.x - l.origin.x) * inv_h);
     };
     SurfacePoint s[2] = {{point, Side::above, x[0], cell(x[0])}, {point, Side::below, x[1], cell(x[1])}};
-    MotionSums sums[2];
-    if (a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base) {
-      sum_surfaces(s, a, 0, 2, sums);
-    } else {
-      sum_surfaces(s, a, 0, 1, sums);
-      sum_surfaces(s, a, 1, 2, sums);
+    const bool together = a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base;
+    int slot[width * width][2];
+    for (int first = 0; first < 2; first += together ? 2 : 1) {
+      for (int n = 0; n < width * width; ++n) {
+        const int i = a[first].x.base + n % width, j = a[first].y.base + n / width;
+        slots_of_surfaces(view, s, j * l.nx + i, l.position(i, j), slot[n]);
+      }
+      for (int k = first; k < (together ? 2 : first + 1); ++k)
+        use(k, a[k], slot);
     }
-    for (int k = 0; k < 2; ++k)
-      motion[k] = fit_motion(sums[k], l.h, dt);
+  }
+
+  /// Motions of the upper and the lower surface of a point.
+  void of_surfaces(const CrackPoint& point, const Vec2* x, PointMotion* motion) const {
+    each_surface(point, x, [&](int k, const Around& a, const int(&slot)[width * width][2]) {
+      MotionSums sums;
+      for (int j = 0; j < width; ++j) {
+        RowSums row;
+#pragma GCC unroll 3
+        for (int i = 0; i < width; ++i) {
+          const int at = slot[j * width + i][k], there = std::max(at, 0);
+          add(row, a.x, i, there, at < 0 ? 0. : double(grid.mass[there]));
+        }
+        sums.add(row, a.y, j);
+      }
+      motion[k] = fit_motion(sums, grid.lattice.h, dt);
+    });
   }
 
   PointMotion of_all_fields(Vec2 x) const {

@@ -6,6 +6,7 @@
 
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
+#include "kernels/apply_tractions.hpp"
 #include "kernels/contact.hpp"
 #include "kernels/fracture_step.hpp"
 
@@ -44,6 +45,7 @@ class Simulation {
   ContactReport contact_before, contact_after, contact_again;
 
   FractureReport fracture;
+  std::vector<PointForces> point_forces;  ///< of tractions on faces
 
   Vec2 gravity() const;         ///< body force per mass now, m/s^2
   double grid_damping() const;  ///< 1/s

@@ -94,6 +94,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(before, "stress before, forces", "",
       [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.plan, m.state); });
+  add(p.tractions, "tractions", "tractions", load_faces);
   add(true, "advance grid", "", [before](Simulation& m) { advance_grid(m.space, m.state, before, m.grid_damping()); });
   add(p.constraints, "boundary after", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after); });
@@ -118,6 +119,8 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
   add(p.cracks, "move cracks", "cracks", move_with_grid);
+  add(p.tractions, "tractions: work and damage", "tractions",
+      [](Simulation& m) { settle_tractions(m.point_forces, m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) { settle_constraints(m.state); });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/exec/parallel.hpp"
+#include "core/state/tractions.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/law_state.hpp"
 
@@ -44,6 +45,8 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   Momentum& b = s.ledger.momentum;
   e.kinetic = t.kinetic;
   e.strain = t.strain;
+  if (plan.tractions)
+    e.cohesive = cohesive_energy(s.cracks);
   b.linear = {t.px, t.py};
   b.angular = t.angular;
   if (s.clock.step == 0) {

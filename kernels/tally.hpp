@@ -5,8 +5,8 @@
 
 namespace riven {
 
-/// Brings the ledger's present values up to date: kinetic and strain energy, momentum and angular momentum about the
-/// origin, and their scales.
+/// Brings the ledger's present values up to date: kinetic, strain and cohesive energy, momentum and angular momentum
+/// about the origin, and their scales.
 template <class Real>
 void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/exec/parallel.hpp"
 #include "kernels/dispatch.hpp"
@@ -20,6 +21,18 @@ struct Largest {
     return *this;
   }
 };
+
+/// sqrt(rho h / k) of the stiffest cohesive law and the lightest material, s.
+template <class Real>
+double cohesive_time(const Scene& scene, const State<Real, 2>& s) {
+  double stiffness = 0, density = std::numeric_limits<double>::infinity();
+  for (const CrackTraction& t : s.cracks.traction)
+    if (t.law.kind == TractionLaw::Kind::cohesive)
+      stiffness = std::max(stiffness, t.law.cohesive.stiffness());
+  for (const Material& m : scene.materials)
+    density = std::min(density, m.density);
+  return stiffness > 0 ? std::sqrt(density * s.grid.lattice.h / stiffness) : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -44,6 +57,10 @@ void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
   Clock& c = s.clock;
   c.dt = scene.cfl * s.grid.lattice.h / v.sum;
   c.limiter = v.particle > v.wave ? "particle speed" : "wave speed";
+  if (const double limit = scene.cfl * cohesive_time(scene, s); limit < c.dt) {
+    c.dt = limit;
+    c.limiter = "cohesive law";
+  }
   if (scene.dt_max < c.dt) {
     c.dt = scene.dt_max;
     c.limiter = "dt_max";

@@ -1,4 +1,7 @@
-// The stable time step: CFL h / (c + |v|) over all particles, with the fastest wave of each particle's present state.
+// The stable time step: CFL h / (c + |v|) over all particles, with the fastest wave of each particle's present state;
+// beside cohesive cracks at most CFL sqrt(rho h / k), k being the stiffness (Pa/m) of the undamaged law: the nodes next
+// to either face carry the mass rho h / 2 per area, and two such masses on the spring k swing with w^2 = 4 k / (rho h),
+// so that w dt stays below 2 CFL, as it does for waves across one cell.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
@@ -14,7 +17,7 @@ struct Speeds {
 template <class Real>
 Speeds measure_speeds(const exec::Space&, const Plan&, const State<Real, 2>&);
 
-/// Sets Clock::dt and its limiter: waves, particle speed, the user's limit, or the end of the run.
+/// Sets Clock::dt and its limiter: waves, particle speed, cohesive laws, the user's limit, or the end of the run.
 template <class Real>
 void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
 

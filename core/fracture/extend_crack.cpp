@@ -37,6 +37,10 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
   if (!cracks.upper_velocity.empty())
     cracks.upper_velocity[at] = cracks.lower_velocity[at] =
         0.5 * (cracks.upper_velocity[end] + cracks.lower_velocity[end]);
+  if (!cracks.bearing.empty()) {
+    const Vec2 there = cracks.bearing[end];
+    cracks.bearing[at] = last ? Vec2{there.y, there.y} : Vec2{there.x, there.x};
+  }
   return static_cast<int>(at);
 }
 

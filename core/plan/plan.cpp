@@ -67,6 +67,8 @@ Plan make_plan(const Scene& scene) {
     p.growth |= growth_rule(scene, c) != nullptr;
   p.fracture = p.growth || (p.cracks && scene.fracture.asked);
   p.law = law_choice(scene, p.fracture);
+  p.tractions =
+      std::any_of(scene.cracks.begin(), scene.cracks.end(), [](const CrackLine& c) { return c.traction.has_value(); });
   p.grips = !scene.grips.empty();
   p.constraints = p.grips || !scene.fixed.empty() || !scene.symmetry.empty();
   p.loads = !scene.loads.empty();
@@ -89,6 +91,7 @@ std::vector<std::string> Plan::effects() const {
   say(contact_area, "imperfect interface");
   say(fracture, "J");
   say(growth, "growth");
+  say(tractions, "tractions");
   say(grips, "grips");
   say(constraints && !grips, "fixed nodes");
   say(loads, "loads");

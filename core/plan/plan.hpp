@@ -27,6 +27,7 @@ struct Plan {
   bool contact_area = false;      ///< an interface law asks for the length of crack at each node
   bool fracture = false;          ///< J and K at every tip
   bool growth = false;            ///< some crack grows
+  bool tractions = false;         ///< some crack's faces bear a pressure or a cohesive law
   bool grips = false;
   bool constraints = false;  ///< any prescribed grid velocity: grips, fixed nodes, symmetry
   bool loads = false;

@@ -39,6 +39,10 @@ RIVEN_NAMES(ContactLaw, {{ContactLaw::ignored, "ignored"},
 RIVEN_NAMES(ContactDetection, {{ContactDetection::volume, "volume"},
                                {ContactDetection::velocity, "velocity"},
                                {ContactDetection::displacement, "displacement"}})
+RIVEN_NAMES(TractionKind, {{TractionKind::pressure, "pressure"},
+                           {TractionKind::triangular, "triangular"},
+                           {TractionKind::trilinear, "trilinear"},
+                           {TractionKind::exponential, "exponential"}})
 RIVEN_NAMES(Sidecar, {{Sidecar::none, "none"}, {Sidecar::vtp, "vtp"}})
 RIVEN_NAMES(JMethod, {{JMethod::pijc, "pijc"}, {JMethod::fijc, "fijc"}, {JMethod::fijc_adaptive, "fijc_adaptive"}})
 RIVEN_NAMES(AreaTerm, {{AreaTerm::automatic, "automatic"}, {AreaTerm::never, "never"}, {AreaTerm::always, "always"}})

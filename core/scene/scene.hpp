@@ -35,6 +35,7 @@ enum class ContactDetection { volume, velocity, displacement };  ///< displaceme
 enum class Sidecar { none, vtp };
 enum class JMethod { pijc, fijc, fijc_adaptive };  ///< what J does where other cracks cross the contour
 enum class AreaTerm { automatic, never, always };  ///< automatic: for contours of more than 10 cells
+enum class TractionKind { pressure, triangular, trilinear, exponential };
 enum class GrowthCriterion { k_max, critical_j };
 enum class GrowthDirection { hoop, self_similar, fixed };
 
@@ -126,6 +127,20 @@ struct ContactRules {
   double v_contact = 1.1;  ///< above it they touch
 };
 
+/// What a crack's faces bear: a pressure, or a cohesive law that softens (core/laws/traction.hpp).
+struct TractionSettings {
+  TractionKind kind = TractionKind::pressure;
+  std::optional<Region> region;  ///< the part of the crack that bears it; all of it where nothing is said
+  TimeFunction pressure;         ///< Pa, pushes the faces apart
+  // cohesive laws; values of shear are those of opening unless said
+  double strength = 0, toughness = 0;              ///< Pa and J/m^2, of opening
+  double shear_strength = 0, shear_toughness = 0;  ///< Pa and J/m^2, of sliding
+  double peak = 0.05;                       ///< opening at the strength over the opening at which nothing is left
+  double knee = 0.3, knee_strength = 0.25;  ///< trilinear: where the second descent begins, over that opening, and at
+                                            ///< what part of the strength
+  double decay = 4;                         ///< exponential: the traction falls as exp(-decay x), x from 0 to 1
+};
+
 /// How J and K are found at the tips of cracks (Nairn and Aimene, section 2.2.2).
 struct FractureRules {
   bool asked = false;  ///< J and K at every tip; growth asks for them, too
@@ -147,10 +162,11 @@ struct GrowthRule {
 struct CrackLine {
   std::string name;
   std::vector<Vec2> points;
-  double resolution = 0;                   ///< greatest segment length, m; 0 means the particle size
-  std::optional<ContactSettings> contact;  ///< its own law instead of the scene's
-  std::optional<GrowthRule> growth;        ///< its own rule instead of the scene's
-  bool grows = true;                       ///< false: stays as it is where the scene's cracks grow
+  double resolution = 0;                     ///< greatest segment length, m; 0 means the particle size
+  std::optional<ContactSettings> contact;    ///< its own law instead of the scene's
+  std::optional<TractionSettings> traction;  ///< none: the faces are free where they do not touch
+  std::optional<GrowthRule> growth;          ///< its own rule instead of the scene's
+  bool grows = true;                         ///< false: stays as it is where the scene's cracks grow
 };
 
 /// A named result read from the fields at the end and at each history row.

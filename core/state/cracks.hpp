@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/exec/array.hpp"
+#include "core/laws/traction.hpp"
 #include "core/math/vec.hpp"
 #include "core/scene/scene.hpp"
 
@@ -16,6 +17,12 @@ struct Junction {
   int other = 0;      ///< the crack on which it lies
   int segment = 0;    ///< of that crack, counted from its first point
   double along = 0;   ///< from 0 to 1 between the ends of that segment
+};
+
+/// What the faces of one crack bear.
+struct CrackTraction {
+  TimeFunction pressure;
+  TractionLaw law;
 };
 
 /// Crack c owns the points [start[c], start[c+1]); its segments join neighbouring points. Walking from the
@@ -35,6 +42,13 @@ struct Cracks {
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
   std::vector<Junction> junctions;
+
+  // tractions on faces; see tractions.hpp
+  std::vector<CrackTraction> traction;    ///< of each crack; none where the plan has no tractions
+  double lead = 0;                        ///< s, by which laws see the surfaces ahead (tractions.hpp)
+  exec::Array<CohesiveHistory> cohesive;  ///< [points]; a point that is added starts with zeros
+  exec::Array<Vec2> bearing;              ///< [points] thickness that bears the tractions, m, as a mean over
+                                          ///< the half segments before (x) and after (y) the point
 
   /// The point at an end of a crack, and the one next to it.
   int end_point(int c, bool last) const {
@@ -66,6 +80,8 @@ struct Cracks {
     for (auto* a :
          {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0, &self.jump})
       some(*a);
+    some(self.cohesive);
+    some(self.bearing);
   }
 };
 

@@ -6,19 +6,21 @@ namespace riven {
 
 struct Energy {
   double kinetic = 0, strain = 0;  ///< J, now
+  double cohesive = 0;             ///< stored in cohesive laws, to be given back
   double external_work = 0;        ///< done on the bodies by loads, body forces, prescribed motion
   double damping = 0;              ///< taken by grid and particle damping
   double contact = 0;              ///< taken by contact (friction and impact)
   double fracture = 0;             ///< released by crack growth, J times new area; see below
-  double first = 0;                ///< kinetic + strain at the start
-  double largest = 0;              ///< largest kinetic + strain, or work done, so far
+  double debonding = 0;            ///< taken by damage of cohesive laws
+  double first = 0;                ///< total at the start
+  double largest = 0;              ///< largest total, or work done, so far
 
-  double total() const { return kinetic + strain; }
+  double total() const { return kinetic + strain + cohesive; }
   /// What is left over: energy that the discretisation made (> 0) or lost. What a crack takes by growing is in here as
   /// a loss, not on its own: a new segment changes no particle's energy. It lets go of the stress across it, and that
   /// energy runs away as waves of a few cells, which the transfers then wear down as they do all such waves, or keep.
   /// `fracture` tells how much of the loss is due to growth; where -numerical() is less, the rest is still in waves.
-  double numerical() const { return total() + damping + contact - external_work - first; }
+  double numerical() const { return total() + damping + contact + debonding - external_work - first; }
   double relative_error() const { return largest > 0 ? numerical() / largest : 0; }
 };
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
+#include "core/state/tractions.hpp"
 
 namespace riven {
 
@@ -120,6 +121,8 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     for (const Body& b : scene.bodies)
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
+    if (plan.tractions)
+      lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
   }
   if (plan.fracture)

@@ -8,15 +8,6 @@ namespace riven {
 
 namespace {
 
-/// The body that holds a point, or -1.
-int body_at(const Scene& scene, Vec2 x) {
-  const auto in = [&](const Region& r) { return contains(r, x); };
-  for (size_t b = 0; b < scene.bodies.size(); ++b)
-    if (in(scene.bodies[b].region) && std::none_of(scene.bodies[b].holes.begin(), scene.bodies[b].holes.end(), in))
-      return static_cast<int>(b);
-  return -1;
-}
-
 bool well_inside(const Scene& scene, Vec2 x, double radius) {
   constexpr int directions = 16;
   for (int i = 0; i < directions; ++i) {
@@ -53,6 +44,14 @@ bool on_crack(const Scene& scene, size_t crack, bool last, double radius) {
 }
 
 }  // namespace
+
+int body_at(const Scene& scene, Vec2 x) {
+  const auto in = [&](const Region& r) { return contains(r, x); };
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    if (in(scene.bodies[b].region) && std::none_of(scene.bodies[b].holes.begin(), scene.bodies[b].holes.end(), in))
+      return static_cast<int>(b);
+  return -1;
+}
 
 std::vector<Tip> make_tips(const Scene& scene) {
   std::vector<Tip> tips;

@@ -7,6 +7,9 @@
 
 namespace riven {
 
+/// The body that holds a point at the start, index into Scene::bodies, or -1.
+int body_at(const Scene& scene, Vec2 x);
+
 /// Both ends of every crack that lie inside a body: in no hole, and no part of the circle around it of half a particle
 /// outside of all bodies (there it is a mouth). An end that is as near to another crack, or to another part of its own,
 /// belongs to a junction and is no tip.

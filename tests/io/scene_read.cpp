@@ -88,6 +88,23 @@ v_sep = 0.8
 [cracks]
 motion = "center_of_mass"
 surface_update = "flip"
+[[crack]]
+name = "cohesive"
+points = [["10 mm", "10 mm"], ["20 mm", "20 mm"]]
+contact = { law = "frictionless" }
+[crack.traction]
+kind = "trilinear"
+strength = "30 MPa"
+toughness = "0.6 N/mm"
+shear_toughness = "1.5 kJ/m^2"
+peak = 0.1
+knee = 0.4
+disk = { center = ["20 mm", "20 mm"], radius = "9 mm" }
+[[crack]]
+name = "pressed"
+points = [["30 mm", "10 mm"], ["40 mm", "20 mm"]]
+contact = { law = "stick" }
+traction = { kind = "pressure", pressure = { value = "5 MPa", shape = "(1-cos(pi*t/tr))/2", tr = "1 ms" } }
 [[probe]]
 name = "mouth"
 kind = "crack_opening"
@@ -138,6 +155,20 @@ energy_growth = 0.1
   EXPECT_DOUBLE_EQ(s.contact.normal_stiffness, 2e9);
   EXPECT_DOUBLE_EQ(s.contact.shear_stiffness, 1e9);
   EXPECT_EQ(s.contact_rules.detection, ContactDetection::volume);
+  EXPECT_FALSE(s.cracks[0].traction);
+  const TractionSettings &cohesive = s.cracks[1].traction.value(), &pressed = s.cracks[2].traction.value();
+  EXPECT_EQ(cohesive.kind, TractionKind::trilinear);
+  EXPECT_DOUBLE_EQ(cohesive.strength, 30e6);
+  EXPECT_DOUBLE_EQ(cohesive.shear_strength, 30e6);
+  EXPECT_DOUBLE_EQ(cohesive.toughness, 600);
+  EXPECT_DOUBLE_EQ(cohesive.shear_toughness, 1500);
+  EXPECT_EQ(cohesive.peak, 0.1);
+  EXPECT_EQ(cohesive.knee, 0.4);
+  EXPECT_EQ(cohesive.knee_strength, 0.25);
+  EXPECT_DOUBLE_EQ(std::get<Disk>(cohesive.region.value()).radius, 9e-3);
+  EXPECT_EQ(pressed.kind, TractionKind::pressure);
+  EXPECT_FALSE(pressed.region);
+  EXPECT_NEAR(pressed.pressure(0.5e-3), 2.5e6, 1e-9);
   EXPECT_DOUBLE_EQ(s.contact_rules.v_sep, 0.8);
   EXPECT_DOUBLE_EQ(s.contact_rules.v_contact, 1.1);
   EXPECT_EQ(s.crack_motion, CrackMotion::center_of_mass);

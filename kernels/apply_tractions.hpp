@@ -1,0 +1,38 @@
+// Tractions between the faces of cracks as forces on the grid (Nairn and Aimene, eqs. 7 and 8):
+//
+//   f_ij += sum_s +-F_s S*_is,    +-F_s = -+A_k (T_n n + T_t t),    S*_is = m_ij N_i(x_s) / sum_i m_ij N_i(x_s),
+//
+// s the upper (+) and lower (-) surface of each crack point k, j the field that the surface sees at node i, A_k the
+// share of the present length of the segments around the point that lies in the solid, times its thickness. A point of
+// which one surface finds no mass bears nothing on either, so that momentum is kept; sums run in the order of the
+// points, whatever the number of threads.
+#pragma once
+#include <vector>
+
+#include "core/exec/space.hpp"
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// Where the forces of a crack point went in this step.
+struct PointForces {
+  static constexpr int nodes = 9;
+  struct Surface {
+    int slot[nodes];
+    double weight[nodes];  ///< S*
+  };
+  Surface surface[2];  ///< upper and lower
+  Vec2 force;          ///< on the upper one, N
+  bool applied = false;
+};
+
+/// Adds the forces of this step to Grid::q. Shape: that of the particles.
+template <class Shape, class Real>
+void apply_tractions(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);
+
+/// Once cracks have moved: books the work that pressures did and lets damage follow the openings. `grid.q` holds
+/// [vx vy ax ay].
+template <class Real>
+void settle_tractions(const std::vector<PointForces>&, State<Real, 2>&);
+
+}  // namespace riven
