@@ -51,7 +51,7 @@ Outcome run(Scene s, const SpaceCase& where, const std::function<void(Simulation
     out.fields.push_back(list);
   }
   const Energy& e = m.state.ledger.energy;
-  out.fields.push_back({e.kinetic, e.strain, e.external_work});
+  out.fields.push_back({e.kinetic, e.strain, e.external_work, e.cohesive, e.debonding});
   out.touching = m.contact_after.touching;
   out.extra_slots = m.state.fields.extra_slots;
   return out;
@@ -148,6 +148,31 @@ TEST(Spaces, AgreeOnAPlateWithCrossingCracks) {
 
 TEST(Spaces, AgreeOnAPlateWithCrossingCracksInContact) {
   expect_same_everywhere(sent_plate(ContactLaw::frictionless), push_together, 1e-8);
+}
+
+/// The level crack under pressure, the upright one cohesive, drawn apart so fast that damage sets in at once.
+TEST(Spaces, AgreeOnAPlateWithTractionsOnCrossingCracks) {
+  Scene s = sent_plate(ContactLaw::ignored);
+  s.cracks[0].traction.emplace().pressure = constant(5e6);
+  TractionSettings& law = s.cracks[1].traction.emplace();
+  law.kind = TractionKind::exponential;
+  law.strength = 1e6;
+  law.toughness = 5;
+  const auto draw_apart = [](Simulation& m) {
+    push_together(m);
+    for (auto& component : m.state.particles.v)
+      for (double& v : component)
+        v = -v;
+  };
+  const exec::Space space(exec::Kind::serial, 1);
+  Simulation m(s, space);
+  draw_apart(m);
+  for (int n = 0; n < 100; ++n)
+    m.step();
+  m.take_stock();
+  EXPECT_GT(m.state.ledger.energy.debonding, 0) << "there must be damage for this to prove anything";
+  EXPECT_GT(m.state.ledger.energy.cohesive, 0);
+  expect_same_everywhere(s, draw_apart, 1e-12);
 }
 
 }  // namespace
