@@ -4,8 +4,8 @@
 // volume on the first face, (W0 + K0) N_K dS. It is taken where that face is, and not where the crack's plane runs
 // between the two: across an opening of a cell energies would be carried on half a cell too far. Faces in contact meet
 // in the plane; the traction on them is that of the stresses beside them (Nairn and Aimene, section 2.2.2, step 5). The
-// target crack's own faces take part where they are not in line with its tip. A segment whose ends another crack has
-// drawn apart spans that crack's opening, and has no solid beside it.
+// target crack's own faces take part where they are not in line with its tip, or bear tractions of their own. A segment
+// whose ends another crack has drawn apart spans that crack's opening, and has no solid beside it.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/state/state.hpp"
+#include "core/state/tractions.hpp"
 #include "kernels/cell_rows.hpp"
 #include "kernels/crack_faces.hpp"
 #include "kernels/j_integral.hpp"
@@ -26,7 +27,12 @@ template <class Shape, class Law, class Real>
 class FaceIntegral {
  public:
   FaceIntegral(const State<Real, 2>& s, const SurfaceView& view, TipTask& task)
-      : s_(s), view_(view), law_(laws<Law>(s)), task_(task), drift_(s.watch.drift / s.grid.lattice.h + 1e-6) {}
+      : s_(s),
+        view_(view),
+        law_(laws<Law>(s)),
+        task_(task),
+        drift_(s.watch.drift / s.grid.lattice.h + 1e-6),
+        bears_(!s.cracks.bearing.empty()) {}
 
   void add() {
     const Lattice& l = s_.grid.lattice;
@@ -73,6 +79,8 @@ class FaceIntegral {
     const int crack = view_.crack[k];
     const Vec2 t = along * (1 / length);
     const bool own = crack == task_.crack;
+    if (own && bears_)
+      add_own_tractions(k, q, cell_of(middle));
     const double turn = std::fabs(cross(t, task_.heading));
     if (own && turn < straight)
       return;
@@ -117,6 +125,47 @@ class FaceIntegral {
   Vec2 middle_of_face(int k, Side side) const {
     const exec::Array<Vec2>& at = side == Side::above ? s_.cracks.upper : s_.cracks.lower;
     return 0.5 * (at[k] + at[k + 1]);
+  }
+
+  /// -int q t . d(delta), with t on the upper face and delta the opening: eq. 11 of Nairn and Aimene, and with their
+  /// eq. 12 no part of it where another crack cuts the faces, whose opening jumps there.
+  void add_own_tractions(int k, double q, int cell) {
+    const Cracks& c = s_.cracks;
+    if (!(c.bearing[k].y > 0) || cut_by_another(k, cell))
+      return;
+    const Vec2 change = (c.upper[k + 1] - c.lower[k + 1]) - (c.upper[k] - c.lower[k]);
+    const Vec2 traction = 0.5 * (traction_on(c, k) + traction_on(c, k + 1));
+    task_.sums.tractions -= (task_.last ? q : -q) * dot(traction, change);
+    if (task_.interaction)
+      add_known_opening(q * norm(view_.plane[k + 1] - view_.plane[k]), traction, k);
+  }
+
+  /// The same with the openings that the fields of K_I = 1 and K_II = 1 have there; `weight`: q times the length.
+  void add_known_opening(double weight, Vec2 traction, int k) {
+    const Vec2 t = task_.heading, n = turned(t);
+    const double behind = norm(0.5 * (view_.plane[k] + view_.plane[k + 1]) - task_.domain.tip);
+    const AuxiliaryFields above = auxiliary_fields(*task_.solid, task_.running, {-behind, 0.0}),
+                          below = auxiliary_fields(*task_.solid, task_.running, {-behind, -0.0});
+    // the upper face of the crack is the left one of its last tip, the right one of its first
+    const double side = task_.last ? 1 : -1;
+    for (int mode = 0; mode < 2; ++mode) {
+      const double along = above.mode[mode].dux_dx - below.mode[mode].dux_dx;
+      const double across = above.mode[mode].duy_dx - below.mode[mode].duy_dx;
+      task_.sums.interaction[mode] -= weight * side * (dot(traction, t) * along + dot(traction, n) * across);
+    }
+  }
+
+  bool cut_by_another(int k, int cell) const {
+    const int seen = view_.cell_index[cell], last = view_.cell_start[seen + 1];
+    for (int at = view_.cell_start[seen], end = at; at < last; at = end) {
+      const int crack = view_.crack[view_.cell_segment[at]];
+      while (end < last && view_.crack[view_.cell_segment[end]] == crack)
+        ++end;
+      if (crack != task_.crack &&
+          detail::side_crossed(view_, view_.plane[k], view_.plane[k + 1], at, end) != Side::none)
+        return true;
+    }
+    return false;
   }
 
   bool in_contact(int k, Vec2 normal) const {
@@ -219,6 +268,7 @@ class FaceIntegral {
   BodyLookup<Law> law_;
   TipTask& task_;
   double drift_;
+  bool bears_;  ///< the tip's own crack bears tractions
   int corner_[2] = {0, 0}, width_ = 0, height_ = 0;
   std::vector<int> index_;  ///< [nodes of the domain] position in fits_, or -1
   std::vector<Fits> fits_;

@@ -17,6 +17,10 @@ namespace {
 /// Cells behind the tip in which the opening shares J out to the modes.
 constexpr double opening_from = 0.9, opening_to = 2.1;
 
+/// Of the shear wave speed, the fastest tip whose steady fields are taken. Nearer to the Rayleigh speed they grow
+/// beyond bounds, and a tip that speeds up would feed itself.
+constexpr double fastest_fields = 0.6;
+
 /// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
 constexpr double least_filled = 0.75, least_filled_across = 0.4;
 
@@ -78,9 +82,10 @@ class JSearch {
     TipTask task;
     task.domain = placed.domain;
     task.crack = tip.crack;
+    task.last = tip.last;
     task.heading = heading_of(s_.cracks, tip);
     task.solid = &solids_[static_cast<size_t>(tip.material)];
-    task.running = RunningTip(*task.solid, tip.speed);
+    task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
     task.other_faces = rules.method != JMethod::pijc;
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
     task.interaction = rules.interaction;
@@ -143,7 +148,7 @@ class JSearch {
     tip.step = s_.clock.step;
     tip.J1 = J.x;
     tip.J2 = J.y;
-    tip.J = dot(J, heading_of(s_.cracks, tip, true));
+    tip.J = dot(J, heading_of(s_.cracks, tip, true)) + sums.tractions;
     tip.adapted = d.adapted;
     tip.crossed = sums.crossed;
     tip.sound = d.settled;
@@ -166,7 +171,7 @@ class JSearch {
     const RunningTip rest(solid, 0);
     const bool usable = task.interaction && !task.sums.crossed && !task.sums.bent;
     if (usable) {
-      const RunningTip running(solid, tip.speed);
+      const RunningTip& running = task.running;
       tip.M_I = solid.mu * task.sums.interaction[0] / running.A_I;
       tip.M_II = solid.mu * task.sums.interaction[1] / running.A_II;
       const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, {tip.M_I, tip.M_II});

@@ -18,6 +18,7 @@ struct TipSums {
   Vec2 J;                           ///< J/m^2, of the band in which q falls
   Vec2 inertia;                     ///< J/m^2, of the area
   Vec2 faces;                       ///< J/m^2, along the faces of cracks
+  double tractions = 0;             ///< J/m^2, of tractions on the crack's own faces, along its heading
   double interaction[2] = {0, 0};   ///< m^0.5, interaction integral over K, with the fields of K_I = 1 and K_II = 1
   double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
   bool crossed = false;             ///< another crack lies in the domain
@@ -28,6 +29,7 @@ struct TipSums {
 struct TipTask {
   JDomain domain;
   int crack = 0;
+  bool last = true;         ///< which end of the crack it is
   Vec2 heading;             ///< unit vector out of the tip along the crack
   bool other_faces = true;  ///< asks for the faces of other cracks
   bool bent_faces = true;   ///< and for those of its own crack where it bends

@@ -87,7 +87,7 @@ detection = "volume"
 v_sep = 0.8
 [cracks]
 motion = "center_of_mass"
-surface_update = "flip"
+surface_update = "pic"
 [[crack]]
 name = "cohesive"
 points = [["10 mm", "10 mm"], ["20 mm", "20 mm"]]
@@ -172,7 +172,7 @@ energy_growth = 0.1
   EXPECT_DOUBLE_EQ(s.contact_rules.v_sep, 0.8);
   EXPECT_DOUBLE_EQ(s.contact_rules.v_contact, 1.1);
   EXPECT_EQ(s.crack_motion, CrackMotion::center_of_mass);
-  EXPECT_EQ(s.surface_update, SurfaceUpdate::flip);
+  EXPECT_EQ(s.surface_update, SurfaceUpdate::pic);
   ASSERT_EQ(s.probes.size(), 3u);
   EXPECT_EQ(s.probes[0].target, "edge");
   EXPECT_EQ(s.probes[1].axis, 0);
