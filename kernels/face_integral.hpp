@@ -247,10 +247,11 @@ class FaceIntegral {
     const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
     const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
     const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
+    const Mat2<double> H = task_.gradient(F);
     // rows of the tensor: K, columns: j
-    const double value[FieldFit::values] = {
-        W * state.J, W * F.xx - (xx * (F.xx - 1) + xy * F.yx), W * F.yx - (xy * (F.xx - 1) + yy * F.yx),
-        W * F.xy - (xx * F.xy + xy * (F.yy - 1)), W * F.yy - (xy * F.xy + yy * (F.yy - 1))};
+    const double value[FieldFit::values] = {W * state.J, W * F.xx - (xx * H.xx + xy * H.yx),
+                                            W * F.yx - (xy * H.xx + yy * H.yx), W * F.xy - (xx * H.xy + xy * H.yy),
+                                            W * F.yy - (xy * H.xy + yy * H.yy)};
     const double area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
     fits[static_cast<size_t>(CrackFields::field_of(s_.fields.fields[i], n * Shape::width + m))].add(area * S, X - I,
                                                                                                     Y - J, value);

@@ -84,6 +84,8 @@ class JSearch {
     task.crack = tip.crack;
     task.last = tip.last;
     task.heading = heading_of(s_.cracks, tip);
+    const Vec2 laid = heading_of(s_.cracks, tip, true);
+    task.turn = {dot(laid, task.heading), cross(laid, task.heading)};
     task.solid = &solids_[static_cast<size_t>(tip.material)];
     task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
     task.other_faces = rules.method != JMethod::pijc;

@@ -97,20 +97,23 @@ class TipSummer {
     const double density = 0.5 * dot(v, v) + law_.of(i).energy(state);
     const Vec2 s{state.xx * g.x + state.xy * g.y, state.xy * g.x + state.yy * g.y};
     const Vec2 F_g{F.xx * g.x + F.yx * g.y, F.xy * g.x + F.yy * g.y};
-    const Vec2 H_s{(F.xx - 1) * s.x + F.yx * s.y, F.xy * s.x + (F.yy - 1) * s.y};
+    const Mat2<double> H = task.gradient(F);
+    const Vec2 H_s{H.xx * s.x + H.yx * s.y, H.xy * s.x + H.yy * s.y};
     task.sums.J -= m * (density * F_g - H_s);
     const double area = p.mass[i] * s_.specific_area[body] * state.J;
     task.sums.filled[q.edge_x] += area * q.slope_x;
     task.sums.filled[q.edge_y] += area * q.slope_y;
     if (task.interaction)
-      add_interaction(task, state, m, p.mass[i] * s_.specific_area[body], r, g, v);
+      add_interaction(task, state, H, m, p.mass[i] * s_.specific_area[body], r, g, v);
   }
 
-  void add_interaction(TipTask& task, const LawState<Real>& p, double m, double area, Vec2 r, Vec2 g, Vec2 v) const {
+  void add_interaction(TipTask& task, const LawState<Real>& p, const Mat2<double>& H, double m, double area, Vec2 r,
+                       Vec2 g, Vec2 v) const {
     const Vec2 t = task.heading, n = turned(t);
     const Vec2 local{dot(r, t), dot(r, n)}, q{dot(g, t), dot(g, n)};
-    // displacement gradient and stress in the tip's frame
-    const Vec2 ut{(p.F.xx - 1) * t.x + p.F.xy * t.y, p.F.yx * t.x + (p.F.yy - 1) * t.y};
+    // displacement gradient, in what has turned with the tip, and stress, in the tip's frame
+    const Vec2 t0{task.turn.x * t.x + task.turn.y * t.y, task.turn.x * t.y - task.turn.y * t.x};
+    const Vec2 ut{H.xx * t0.x + H.xy * t0.y, H.yx * t0.x + H.yy * t0.y};
     const double u1 = dot(ut, t), u2 = dot(ut, n);
     const Vec2 st{p.xx * t.x + p.xy * t.y, p.xy * t.x + p.yy * t.y};
     // velocity times that of the running field, which is - speed du/dx
@@ -134,11 +137,11 @@ class TipSummer {
     const Particles<Real, 2>& p = s_.particles;
     const Motion motion = motion_of<Shape>(s_, slots_, i);
     const Mat2<double> F{double(p.F[0][i]), double(p.F[1][i]), double(p.F[2][i]), double(p.F[3][i])};
-    const Mat2<double> rate = motion.grad * F;
+    const Mat2<double> rate = motion.grad * F, H = task.gradient(F);
     const Vec2 a = motion.acceleration, v{double(p.v[0][i]), double(p.v[1][i])};
     const double m = q * p.mass[i] / s_.thickness[p.body[i]];
-    task.sums.inertia += m * Vec2{(F.xx - 1) * a.x + F.yx * a.y - rate.xx * v.x - rate.yx * v.y,
-                                  F.xy * a.x + (F.yy - 1) * a.y - rate.xy * v.x - rate.yy * v.y};
+    task.sums.inertia += m * Vec2{H.xx * a.x + H.yx * a.y - rate.xx * v.x - rate.yx * v.y,
+                                  H.xy * a.x + H.yy * a.y - rate.xy * v.x - rate.yy * v.y};
   }
 
   const State<Real, 2>& s_;

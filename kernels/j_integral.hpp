@@ -10,6 +10,7 @@
 #include "core/exec/space.hpp"
 #include "core/fracture/j_domain.hpp"
 #include "core/fracture/stress_intensity.hpp"
+#include "core/math/tensor.hpp"
 #include "core/state/state.hpp"
 
 namespace riven {
@@ -31,6 +32,7 @@ struct TipTask {
   int crack = 0;
   bool last = true;         ///< which end of the crack it is
   Vec2 heading;             ///< unit vector out of the tip along the crack
+  Vec2 turn{1, 0};          ///< cosine and sine of the angle by which the heading has turned since the crack was laid
   bool other_faces = true;  ///< asks for the faces of other cracks
   bool bent_faces = true;   ///< and for those of its own crack where it bends
   const PlaneElasticity* solid = nullptr;
@@ -38,6 +40,12 @@ struct TipTask {
   bool inertia = false;      ///< asks for TipSums::inertia
   bool interaction = false;  ///< and for TipSums::interaction
   TipSums sums{};
+
+  /// Displacement gradient F - R of what has turned by R with the tip.
+  template <class Real>
+  Mat2<double> gradient(const Mat2<Real>& F) const {
+    return {F.xx - turn.x, F.xy + turn.y, F.yx - turn.y, F.yy - turn.x};
+  }
 };
 
 /// Fills the sums of all tasks. Grid::q holds [vx vy ax ay].
