@@ -14,9 +14,6 @@ namespace riven {
 
 namespace {
 
-/// Cells behind the tip in which the opening shares J out to the modes.
-constexpr double opening_from = 0.9, opening_to = 2.1;
-
 /// Of the shear wave speed, the fastest tip whose steady fields are taken. Nearer to the Rayleigh speed they grow
 /// beyond bounds, and a tip that speeds up would feed itself.
 constexpr double fastest_fields = 0.6;
@@ -165,8 +162,8 @@ class JSearch {
   /// J to the modes: by the interaction integral where that holds, else by the opening.
   void share(Tip& tip, const TipTask& task) const {
     const PlaneElasticity& solid = *task.solid;
-    const double h = m_.scene.cell, none = std::numeric_limits<double>::quiet_NaN();
-    const Vec2 opening = opening_behind(s_.cracks, tip, opening_from * h, opening_to * h);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell);
     const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
