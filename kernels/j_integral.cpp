@@ -142,6 +142,19 @@ class TipSummer {
     const double m = q * p.mass[i] / s_.thickness[p.body[i]];
     task.sums.inertia += m * Vec2{H.xx * a.x + H.yx * a.y - rate.xx * v.x - rate.yx * v.y,
                                   H.xy * a.x + H.yy * a.y - rate.xy * v.x - rate.yy * v.y};
+    if (task.interaction && task.running.speed == 0)
+      add_interaction_inertia(task, m * a, r);
+  }
+
+  /// With known fields at rest rho a_i du_i/dx alone is left of P. Around a tip that runs at one speed, with all fields
+  /// about it, the parts of P cancel; between the two none of them is taken.
+  void add_interaction_inertia(TipTask& task, Vec2 force, Vec2 r) const {
+    const Vec2 t = task.heading, n = turned(t);
+    const AuxiliaryFields known = auxiliary_fields(*task.solid, task.running, Vec2{dot(r, t), dot(r, n)});
+    for (int mode = 0; mode < 2; ++mode) {
+      const AuxiliaryField& a = known.mode[mode];
+      task.sums.interaction[mode] += dot(force, t) * a.dux_dx + dot(force, n) * a.duy_dx;
+    }
   }
 
   const State<Real, 2>& s_;
