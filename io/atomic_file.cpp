@@ -62,6 +62,16 @@ bool write_all(int descriptor, const void* data, std::size_t bytes) {
   return true;
 }
 
+void append(int descriptor, const fs::path& path, std::string_view text) {
+  const off_t before = ::lseek(descriptor, 0, SEEK_CUR);
+  if (write_all(descriptor, text.data(), text.size()))
+    return;
+  const int cause = errno;
+  if (before >= 0 && ::ftruncate(descriptor, before) != 0)
+    fail_file(path, "write or shorten the file", cause);
+  fail_file(path, "write the file", cause);
+}
+
 fs::path AtomicFile::temporary_name(const fs::path& target) {
   return target.parent_path() / ("." + target.filename().string() + ".part");
 }

@@ -14,6 +14,10 @@ void make_folder(const std::filesystem::path& folder);
 /// All bytes into the descriptor, over interruptions and short writes; false, with errno set, when it cannot.
 bool write_all(int descriptor, const void* data, std::size_t bytes);
 
+/// Adds text to the end of an open file. When that cannot be, the file is cut back to what it was and Error (file) is
+/// thrown.
+void append(int descriptor, const std::filesystem::path& path, std::string_view text);
+
 /// The temporary is removed when the object dies without commit(); the file that had the name before stays as
 /// it was until then.
 class AtomicFile {

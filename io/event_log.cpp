@@ -33,7 +33,7 @@ EventLog::EventLog(std::filesystem::path path) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_TRUNC, 0666);
   if (descriptor_ < 0)
     fail_file(path_, "write the file", errno);
-  append(header);
+  append(descriptor_, path_, header);
 }
 
 EventLog::~EventLog() {
@@ -44,20 +44,11 @@ void EventLog::write(const std::vector<CrackEvent>& events, const Cracks& cracks
   for (; written_ < events.size(); ++written_) {
     const CrackEvent& e = events[written_];
     const auto crack = [&](int c) { return c < 0 ? std::string() : cracks.names[static_cast<std::size_t>(c)]; };
-    append(fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
+    append(descriptor_, path_,
+           fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
                        crack(e.crack), end_name(e.last), name(e.kind), e.place.x, e.place.y, crack(e.other), e.K_I,
                        e.K_II, e.J, e.speed));
   }
-}
-
-void EventLog::append(std::string_view text) {
-  const off_t before = ::lseek(descriptor_, 0, SEEK_CUR);
-  if (write_all(descriptor_, text.data(), text.size()))
-    return;
-  const int cause = errno;
-  if (before >= 0 && ::ftruncate(descriptor_, before) != 0)
-    fail_file(path_, "write or shorten the file", cause);
-  fail_file(path_, "write the file", cause);
 }
 
 }  // namespace riven

@@ -20,8 +20,6 @@ class EventLog {
   void write(const std::vector<CrackEvent>& events, const Cracks& cracks);
 
  private:
-  void append(std::string_view text);
-
   std::filesystem::path path_;
   std::size_t written_ = 0;
   int descriptor_ = -1;

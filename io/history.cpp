@@ -88,14 +88,7 @@ void History::row(std::span<const double> values) {
   if (values.size() != columns_)
     fail({Exit::internal, "a row of the history has not one value per column", path_.string(),
           std::to_string(values.size()), std::to_string(columns_), ""});
-  const std::string line = fmt::format("{:.17g}\n", fmt::join(values, ","));
-  const off_t before = ::lseek(descriptor_, 0, SEEK_CUR);
-  if (write_all(descriptor_, line.data(), line.size()))
-    return;
-  const int cause = errno;
-  if (before >= 0 && ::ftruncate(descriptor_, before) != 0)
-    fail_file(path_, "write or shorten the file", cause);
-  fail_file(path_, "write the file", cause);
+  append(descriptor_, path_, fmt::format("{:.17g}\n", fmt::join(values, ",")));
 }
 
 }  // namespace riven
