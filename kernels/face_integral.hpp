@@ -88,7 +88,7 @@ class FaceIntegral {
       task_.sums.bent = true;
     if (!own)
       task_.sums.crossed = true;
-    if (own ? !task_.bent_faces : !task_.other_faces)
+    if (!own && !task_.other_faces)
       return;
     const Vec2 normal = turned(t);  // towards above
     const int last = view_.start[crack + 1] - 1;

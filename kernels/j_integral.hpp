@@ -34,7 +34,6 @@ struct TipTask {
   Vec2 heading;             ///< unit vector out of the tip along the crack
   Vec2 turn{1, 0};          ///< cosine and sine of the angle by which the heading has turned since the crack was laid
   bool other_faces = true;  ///< asks for the faces of other cracks
-  bool bent_faces = true;   ///< and for those of its own crack where it bends
   const PlaneElasticity* solid = nullptr;
   RunningTip running;
   bool inertia = false;      ///< asks for TipSums::inertia

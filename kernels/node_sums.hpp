@@ -13,6 +13,7 @@
 #include "core/state/grid.hpp"
 #include "core/state/particles.hpp"
 #include "kernels/block.hpp"
+#include "kernels/cell_rows.hpp"
 
 namespace riven {
 
@@ -50,13 +51,9 @@ struct NodeSums {
   /// f(first, last) for the stretches of particles that were sorted into the cells around node (I, K).
   template <class Shape, class Visit>
   RIVEN_INLINE void each_stretch_around(int I, int K, const Visit& f) const {
-    const int left = std::max(Shape::cell(I - reach), 0), right = std::min(Shape::cell(I + reach), lattice.nx - 1);
-    const int low = std::max(Shape::cell(K - reach), 0), high = std::min(Shape::cell(K + reach), lattice.ny - 1);
-    for (int j = low; j <= high; ++j)
-      for (int i = left, end = i; i <= right; i = end + 1) {
-        end = std::min(right, i | (Lattice::tile - 1));  // cells of one tile follow each other
-        f(cell_start[lattice.sorted_cell(i, j)], cell_start[lattice.sorted_cell(end, j) + 1]);
-      }
+    const int left = Shape::cell(I - reach), right = Shape::cell(I + reach);
+    for (int j = Shape::cell(K - reach); j <= Shape::cell(K + reach); ++j)
+      each_stretch_of_row(lattice, cell_start, j, left, right, f);
   }
 
   /// Asks for the particles around node (I, K), all at once: no pass before has left them near at hand.

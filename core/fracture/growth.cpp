@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fracture/stress_intensity.hpp"
+
 namespace riven {
 
 HoopStress greatest_hoop_stress(double K_I, double K_II) {
@@ -15,8 +17,8 @@ HoopStress greatest_hoop_stress(double K_I, double K_II) {
 }
 
 double rayleigh_speed(const Material& m, Plane plane) {
-  const double shear = std::sqrt(m.E / (2 * (1 + m.nu) * m.density));
-  const double ratio2 = plane == Plane::strain ? (1 - 2 * m.nu) / (2 * (1 - m.nu)) : (1 - m.nu) / 2;  // (c_s / c_d)^2
+  const PlaneElasticity solid(m, plane);
+  const double ratio = solid.shear_speed / solid.dilatational_speed, ratio2 = ratio * ratio;
   // the equation squared, over c^2/c_s^2 =: x, has one root in (0, 1)
   const auto f = [&](double x) { return ((x - 8) * x + 24 - 16 * ratio2) * x - 16 * (1 - ratio2); };
   double low = 0, high = 1;
@@ -24,7 +26,7 @@ double rayleigh_speed(const Material& m, Plane plane) {
     const double middle = 0.5 * (low + high);
     (f(middle) < 0 ? low : high) = middle;
   }
-  return shear * std::sqrt(high);
+  return solid.shear_speed * std::sqrt(high);
 }
 
 long check_interval(double particle, double speed_limit, double dt) {
