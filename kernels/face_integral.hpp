@@ -103,7 +103,8 @@ class FaceIntegral {
     const Vec2 first = s_.cracks.plane0[k + 1] - s_.cracks.plane0[k];
     if (length > torn * norm(first))
       return;
-    const bool touches = in_contact(k, normal);
+    // tractions of laws on its own faces are counted already, however little these have opened
+    const bool touches = !(own && bears_) && in_contact(k, normal);
     for (const Side side : {Side::above, Side::below}) {
       const Vec2 x = touches ? middle : middle_of_face(k, side);
       SurfacePoint face{point, side, x, cell_of(x)};
