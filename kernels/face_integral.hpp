@@ -129,44 +129,80 @@ class FaceIntegral {
   }
 
   /// -int q t . d(delta), with t on the upper face and delta the opening: eq. 11 of Nairn and Aimene, and with their
-  /// eq. 12 no part of it where another crack cuts the faces, whose opening jumps there.
+  /// eq. 12 nothing of the jump that delta makes where another crack cuts the faces. Up to the cut on either side delta
+  /// goes on as in the segments before and behind.
   void add_own_tractions(int k, double q, int cell) {
     const Cracks& c = s_.cracks;
-    if (!(c.bearing[k].y > 0) || cut_by_another(k, cell))
+    if (!(c.bearing[k].y > 0))
       return;
-    const Vec2 change = (c.upper[k + 1] - c.lower[k + 1]) - (c.upper[k] - c.lower[k]);
-    const Vec2 traction = 0.5 * (traction_on(c, k) + traction_on(c, k + 1));
-    task_.sums.tractions -= (task_.last ? q : -q) * dot(traction, change);
-    if (task_.interaction)
-      add_known_opening(q * norm(view_.plane[k + 1] - view_.plane[k]), traction, k);
+    const double before = task_.other_faces ? cut_at(k, cell) : uncut;
+    const double work = before == uncut ? work_of_opening(k)
+                                        : before * work_of_opening(k, uncut_beside(k, -1)) +
+                                              (1 - before) * work_of_opening(k, uncut_beside(k, 1));
+    task_.sums.tractions -= task_.last ? q * work : -q * work;
+    if (task_.interaction && before == uncut)
+      add_known_opening(q, k);
   }
 
-  /// The same with the openings that the fields of K_I = 1 and K_II = 1 have there; `weight`: q times the length.
-  void add_known_opening(double weight, Vec2 traction, int k) {
-    const Vec2 t = task_.heading, n = turned(t);
-    const double behind = norm(0.5 * (view_.plane[k] + view_.plane[k + 1]) - task_.domain.tip);
+  /// t . d(delta) along a segment.
+  double work_of_opening(int k) const {
+    const Cracks& c = s_.cracks;
+    const Vec2 change = (c.upper[k + 1] - c.lower[k + 1]) - (c.upper[k] - c.lower[k]);
+    return dot(mean_traction(k), change);
+  }
+  /// The same by how delta changes along segment n.
+  double work_of_opening(int k, int n) const {
+    const auto first_length = [&](int at) { return norm(s_.cracks.plane0[at + 1] - s_.cracks.plane0[at]); };
+    return n < 0 ? 0 : work_of_opening(n) * first_length(k) / first_length(n);
+  }
+  Vec2 mean_traction(int k) const { return 0.5 * (traction_on(s_.cracks, k) + traction_on(s_.cracks, k + 1)); }
+
+  /// The same as t . d(delta) with the openings that the fields of K_I = 1 and K_II = 1 have there.
+  void add_known_opening(double q, int k) {
+    const Vec2 t = task_.heading, n = turned(t), traction = mean_traction(k);
+    const double a = norm(view_.plane[k] - task_.domain.tip), b = norm(view_.plane[k + 1] - task_.domain.tip);
+    const double behind = 0.5 * (a + b);
     const AuxiliaryFields above = auxiliary_fields(*task_.solid, task_.running, {-behind, 0.0}),
                           below = auxiliary_fields(*task_.solid, task_.running, {-behind, -0.0});
+    // the slopes there times this are their integral, for they fall as one over the root of the distance
+    const double length = 2 * std::fabs(std::sqrt(a) - std::sqrt(b)) * std::sqrt(behind);
     // the upper face of the crack is the left one of its last tip, the right one of its first
     const double side = task_.last ? 1 : -1;
     for (int mode = 0; mode < 2; ++mode) {
       const double along = above.mode[mode].dux_dx - below.mode[mode].dux_dx;
       const double across = above.mode[mode].duy_dx - below.mode[mode].duy_dx;
-      task_.sums.interaction[mode] -= weight * side * (dot(traction, t) * along + dot(traction, n) * across);
+      task_.sums.interaction[mode] -= q * length * side * (dot(traction, t) * along + dot(traction, n) * across);
     }
   }
 
-  bool cut_by_another(int k, int cell) const {
-    const int seen = view_.cell_index[cell], last = view_.cell_start[seen + 1];
-    for (int at = view_.cell_start[seen], end = at; at < last; at = end) {
-      const int crack = view_.crack[view_.cell_segment[at]];
-      while (end < last && view_.crack[view_.cell_segment[end]] == crack)
-        ++end;
-      if (crack != task_.crack &&
-          detail::side_crossed(view_, view_.plane[k], view_.plane[k + 1], at, end) != Side::none)
-        return true;
+  /// Which part of a segment comes before the place where another crack cuts it or one of its ends, or `uncut`. An end
+  /// on that crack belongs to neither side of it.
+  double cut_at(int k, int cell) const {
+    const int seen = view_.cell_index[cell];
+    const Vec2 a = view_.plane[k], along = view_.plane[k + 1] - a;
+    for (int at = view_.cell_start[seen]; at < view_.cell_start[seen + 1]; ++at) {
+      const int n = view_.cell_segment[at];
+      if (view_.crack[n] == task_.crack)
+        continue;
+      const Vec2 r = view_.plane[n] - a, across = view_.plane[n + 1] - view_.plane[n];
+      const double det = cross(along, across);
+      const double place = cross(r, across) / det, there = cross(r, along) / det;
+      if (place >= -at_end && place <= 1 + at_end && there >= 0 && there <= 1)
+        return std::clamp(place, 0.0, 1.0);
     }
-    return false;
+    return uncut;
+  }
+
+  /// The nearest segment on one side of a cut one that is not, or -1.
+  int uncut_beside(int k, int step) const {
+    for (int n = k + step; std::abs(n - k) <= 2; n += step) {
+      if (n < view_.start[task_.crack] || n + 1 >= view_.start[task_.crack + 1])
+        return -1;
+      const int cell = cell_of(0.5 * (view_.plane[n] + view_.plane[n + 1]));
+      if (view_.cell_index[cell] >= 0 && cut_at(n, cell) == uncut)
+        return n;
+    }
+    return -1;
   }
 
   bool in_contact(int k, Vec2 normal) const {
@@ -258,9 +294,11 @@ class FaceIntegral {
                                                                                                     Y - J, value);
   }
 
-  static constexpr double straight = 1e-3;    ///< sine of the angle to the tip's heading up to which a face is in line
-  static constexpr double bent = 0.2;         ///< and from which on the crack is bent for the interaction integral
-  static constexpr double torn = 2;           ///< length of a segment over its first one from which it spans an opening
+  static constexpr double straight = 1e-3;  ///< sine of the angle to the tip's heading up to which a face is in line
+  static constexpr double bent = 0.2;       ///< and from which on the crack is bent for the interaction integral
+  static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
+  static constexpr double uncut = -1;
+  static constexpr double at_end = 0.25;      ///< of a segment: how near to its end a cut is one of the end
   static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
   static constexpr double touching = 0.05;    ///< opening in cells below which faces may press on each other
   static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing

@@ -182,5 +182,44 @@ TEST(JOfKnownFields, IsThatOfTheTipAloneAcrossAShutCrack) {
   }
 }
 
+// A crack under pressure P whose opening grows by `slope` away from its tip, and by a jump besides where another crack
+// cuts it: J is P times the slopes alone, int q P slope dx, on either side of the cut (Nairn and Aimene, eq. 12),
+// wherever it is in a segment. The opening of a point on the cut is anything between those of its two sides. What looks
+// away from other cracks takes the jump for part of J (eq. 11).
+TEST(JOfKnownFields, LeavesOutTheJumpWhereAnotherCrackCutsFacesUnderPressure) {
+  const exec::Space space(exec::Kind::serial, 1);
+  constexpr double P = 4, jump = 6e-6, slope[2] = {1e-6, 3e-6}, contour = 8;
+  for (const double cut : {-2.0, -2.05, -2.2, -2.25, -2.4, -2.45, -3.7})
+    for (const double heading : {1.0, -1.0}) {
+      SCOPED_TRACE(testing::Message() << "cut at " << cut << " heading " << heading);
+      const auto at = [&](double x) { return Vec2{heading * x, 0}; };
+      Scene scene = square(Plane::stress, {crack("target", {at(-13), at(0)}),
+                                           crack("other", {{heading * cut, -6}, {heading * cut, 6}})});
+      scene.cracks[0].traction.emplace().pressure = test::constant(P);
+      Simulation m(scene, space);
+      Cracks& c = m.state.cracks;
+      c.traction[0].law.pressure.value = P;
+      for (int k = c.start[0]; k < c.start[1]; ++k) {
+        const double x = heading * c.plane[k].x;
+        const double side = std::abs(x - cut) < 1e-9 ? 0.9 : x < cut ? 1 : 0;
+        const double opening = (x < cut ? slope[0] * (cut - x) - slope[1] * cut : -slope[1] * x) + side * jump;
+        c.upper[k].y += 0.5 * heading * opening;
+        c.lower[k].y -= 0.5 * heading * opening;
+      }
+      lay(m, [](Vec2) { return Field{}; });
+      const double reach[4] = {contour / 2, contour / 2, contour / 2, contour / 2};
+      const JDomain domain = plain_domain({0, 0}, reach, scene.cell);
+      double exact = 0;
+      constexpr int pieces = 10000;
+      for (int i = 0; i < pieces; ++i) {
+        const double x = -6 * (i + 0.5) / pieces;
+        exact += 6.0 / pieces * P * slope[x > cut] * domain.weight(at(x));
+      }
+      EXPECT_NEAR(sums_at(m, {0, 0}, at(1), contour).tractions, exact, 0.01 * exact);
+      const double all = exact + P * jump * domain.weight(at(cut));
+      EXPECT_NEAR(sums_at(m, {0, 0}, at(1), contour, false).tractions, all, 0.02 * all);
+    }
+}
+
 }  // namespace
 }  // namespace riven
