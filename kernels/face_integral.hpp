@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/fracture/auxiliary_fields.hpp"
 #include "core/state/state.hpp"
 #include "core/state/tractions.hpp"
 #include "kernels/cell_rows.hpp"
@@ -40,14 +41,19 @@ class FaceIntegral {
     const double inv = 1 / l.h;
     const Vec2 c = (d.tip - l.origin) * inv;
     const auto node = [](double x, int last) { return std::clamp(static_cast<int>(std::floor(x)), 1, last - 2); };
-    corner_[0] = node(c.x - d.outer(left) * inv - around, l.nx);
-    corner_[1] = node(c.y - d.outer(bottom) * inv - around, l.ny);
-    const int i1 = node(c.x + d.outer(right) * inv + around, l.nx);
-    const int j1 = node(c.y + d.outer(top) * inv + around, l.ny);
-    width_ = i1 - corner_[0] + 1;
-    height_ = j1 - corner_[1] + 1;
-    for (int j = corner_[1]; j <= j1; ++j)
-      for (int i = corner_[0]; i <= i1; ++i)
+    const auto first = [&](double room) {
+      return std::array{node(c.x - d.outer(left) * inv - room, l.nx), node(c.y - d.outer(bottom) * inv - room, l.ny)};
+    };
+    const auto last = [&](double room) {
+      return std::array{node(c.x + d.outer(right) * inv + room, l.nx), node(c.y + d.outer(top) * inv + room, l.ny)};
+    };
+    corner_ = first(around);
+    width_ = last(around)[0] - corner_[0] + 1;
+    height_ = last(around)[1] - corner_[1] + 1;
+    // half a cell, as B-splines count cells from mid-cell to mid-cell
+    const auto low = first(0.5), high = last(0.5);
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int i = low[0]; i <= high[0]; ++i)
         add_cell(j * l.nx + i);
   }
 
@@ -255,43 +261,87 @@ class FaceIntegral {
     return fits_[static_cast<size_t>(at)];
   }
 
-  void sum_node(int I, int J, Fits& fits) const {
-    const Particles<Real, 2>& p = s_.particles;
-    const Lattice& l = s_.grid.lattice;
-    const double reach = 1.5 + drift_, inv = 1 / l.h;
+  void sum_node(int I, int J, Fits& fits) {
+    const double reach = 1.5 + drift_;
     for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
-      each_stretch_of_row(l, p.tiles.cell_start.data(), j, Shape::cell(I - reach), Shape::cell(I + reach),
-                          [&](int first, int last) {
-                            for (int i = first; i < last; ++i)
-                              sum_particle(i, I, J, inv, fits);
-                          });
+      for (int i = Shape::cell(I - reach); i <= Shape::cell(I + reach); ++i) {
+        const auto [first, last] = seen_in(i, j);
+        for (int k = first; k < last; ++k)
+          seen_[static_cast<size_t>(k)].add(I, J, fits);
+      }
   }
 
-  void sum_particle(int i, int I, int J, double inv, Fits& fits) const {
+  /// What a particle adds to the fits of its nodes.
+  struct Seen {
+    int base_x, base_y;
+    double x, y;  ///< from the first of its nodes, in cells
+    double weight_x[Shape::width], weight_y[Shape::width];
+    double area;  ///< in cells
+    std::uint32_t word;
+    double value[FieldFit::values];
+
+    void add(int I, int J, Fits& fits) const {
+      const int m = I - base_x, n = J - base_y;
+      if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
+        return;
+      const double S = weight_x[m] * weight_y[n];
+      if (S > 0)
+        fits[static_cast<size_t>(CrackFields::field_of(word, n * Shape::width + m))].add(area * S, x - m, y - n, value);
+    }
+  };
+  struct Range {
+    int first = -1, last = -1;
+  };
+
+  /// The particles of a cell, positions in seen_.
+  Range seen_in(int i, int j) {
+    const int x = i - corner_[0] + margin, y = j - corner_[1] + margin, width = width_ + 2 * margin;
+    if (of_cell_.empty())
+      of_cell_.resize(static_cast<size_t>(width) * static_cast<size_t>(height_ + 2 * margin));
+    if (x < 0 || y < 0 || x >= width || y >= height_ + 2 * margin)
+      return {0, 0};
+    Range& range = of_cell_[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    if (range.first < 0) {
+      range.first = static_cast<int>(seen_.size());
+      each_stretch_of_row(s_.grid.lattice, s_.particles.tiles.cell_start.data(), j, i, i, [&](int first, int last) {
+        for (int p = first; p < last; ++p)
+          see(p);
+      });
+      range.last = static_cast<int>(seen_.size());
+    }
+    return range;
+  }
+
+  void see(int i) {
     const Particles<Real, 2>& p = s_.particles;
     const Lattice& l = s_.grid.lattice;
     const DomainSetting<Real, 2>& d = s_.domains[p.body[i]];
-    const double X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
+    const double inv = 1 / l.h, X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
     const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
-    const int m = I - a.base, n = J - b.base;
-    if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
-      return;
-    const double S = a.s[m] * b.s[n];
-    if (!(S > 0))
-      return;
     const LawState<Real> state = law_state<Law>(p, i);
     const auto& F = state.F;
     const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
     const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
     const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
     const Mat2<double> H = task_.gradient(F);
-    // rows of the tensor: K, columns: j
-    const double value[FieldFit::values] = {W * state.J, W * F.xx - (xx * H.xx + xy * H.yx),
-                                            W * F.yx - (xy * H.xx + yy * H.yx), W * F.xy - (xx * H.xy + xy * H.yy),
-                                            W * F.yy - (xy * H.xy + yy * H.yy)};
-    const double area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
-    fits[static_cast<size_t>(CrackFields::field_of(s_.fields.fields[i], n * Shape::width + m))].add(area * S, X - I,
-                                                                                                    Y - J, value);
+    Seen seen;
+    seen.base_x = a.base;
+    seen.base_y = b.base;
+    seen.x = X - a.base;
+    seen.y = Y - b.base;
+    for (int k = 0; k < Shape::width; ++k) {
+      seen.weight_x[k] = a.s[k];
+      seen.weight_y[k] = b.s[k];
+    }
+    seen.area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
+    seen.word = s_.fields.fields[i];
+    // energy per first volume, then the tensor: rows K, columns j
+    seen.value[0] = W * state.J;
+    seen.value[1] = W * F.xx - (xx * H.xx + xy * H.yx);
+    seen.value[2] = W * F.yx - (xy * H.xx + yy * H.yx);
+    seen.value[3] = W * F.xy - (xx * H.xy + xy * H.yy);
+    seen.value[4] = W * F.yy - (xy * H.xy + yy * H.yy);
+    seen_.push_back(seen);
   }
 
   static constexpr double straight = 1e-3;  ///< sine of the angle to the tip's heading up to which a face is in line
@@ -300,6 +350,7 @@ class FaceIntegral {
   static constexpr double uncut = -1;
   static constexpr double at_end = 0.25;      ///< of a segment: how near to its end a cut is one of the end
   static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
+  static constexpr int margin = 3;            ///< cells around those nodes in which their particles may be
   static constexpr double touching = 0.05;    ///< opening in cells below which faces may press on each other
   static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
 
@@ -309,9 +360,12 @@ class FaceIntegral {
   TipTask& task_;
   double drift_;
   bool bears_;  ///< the tip's own crack bears tractions
-  int corner_[2] = {0, 0}, width_ = 0, height_ = 0;
+  std::array<int, 2> corner_{0, 0};
+  int width_ = 0, height_ = 0;
   std::vector<int> index_;  ///< [nodes of the domain] position in fits_, or -1
   std::vector<Fits> fits_;
+  std::vector<Range> of_cell_;  ///< [cells of the domain and its margin]
+  std::vector<Seen> seen_;
 };
 
 }  // namespace riven

@@ -19,7 +19,7 @@ namespace {
 constexpr double fastest_fields = 0.6;
 
 /// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
-constexpr double least_filled = 0.75, least_filled_across = 0.4;
+constexpr double least_filled = 0.9, least_filled_across = 0.4;
 
 void count(long& counter, Vec2& place, Vec2 here) {
   if (counter++ == 0)
@@ -115,7 +115,8 @@ class JSearch {
     bool again = false;
     d.settled = true;
     for (int e = 0; e < 4; ++e) {
-      if (task.sums.filled[e] >= (crosses(task, *d.tip, e) ? least_filled_across : least_filled))
+      const double filled = task.sums.filled[e];
+      if (filled >= least_filled || (filled >= least_filled_across && crosses(task, *d.tip, e)))
         continue;
       d.settled = false;
       if (task.domain.reach[e] > 1.5 * h) {

@@ -43,17 +43,4 @@ StressIntensity share_out(const PlaneElasticity& solid, double J, double speed, 
 /// The same by intensities that are in the right proportion, such as those of the interaction integral.
 StressIntensity share_in_proportion(const PlaneElasticity& solid, double J, double speed, StressIntensity proportion);
 
-/// Stresses and displacement gradients around a tip in its frame (x along its heading): the first terms of Williams'
-/// series at rest, those of a tip that runs steadily (Freund, sections 4.3 and 4.4) else.
-struct AuxiliaryField {
-  double sxx, syy, sxy;   ///< Pa
-  double exx, eyy, exy;   ///< strains
-  double dux_dx, duy_dx;  ///< of the displacement along the heading; times minus the speed, its velocity
-};
-/// Under K_I = 1 and under K_II = 1 Pa m^0.5, at an offset r from the tip in its frame, m.
-struct AuxiliaryFields {
-  AuxiliaryField mode[2];
-};
-AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, const RunningTip& tip, Vec2 r);
-
 }  // namespace riven

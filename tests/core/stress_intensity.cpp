@@ -1,10 +1,10 @@
 // Stress intensity factors from J and the opening, and the fields around a tip at rest.
-#include "core/fracture/stress_intensity.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "core/fracture/auxiliary_fields.hpp"
 
 namespace riven {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fracture/auxiliary_fields.hpp"
 #include "core/fracture/place_domain.hpp"
-#include "core/fracture/stress_intensity.hpp"
 #include "kernels/crack_step.hpp"
 #include "kernels/j_integral.hpp"
 #include "tests/physics/scenes.hpp"

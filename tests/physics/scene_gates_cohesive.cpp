@@ -142,6 +142,7 @@ TEST(CohesiveDcb, TakesUpAtItsRootTheJOfTheLoads) {
   const auto first = m.state.particles.x;
   const std::vector<int> before = by_id(m.state.particles);
   std::vector<Vec2> start;
+  start.reserve(before.size());
   for (const int i : before)
     start.push_back({first[0][i], first[1][i]});
   while (!m.finished())

@@ -84,7 +84,7 @@ Scene turned_plate(double cell, double angle) {
 }
 
 void expect_same_when_turned(double cell) {
-  double J[2];
+  double J[2] = {0, 0};
   for (const int turn : {0, 1}) {
     Plate plate(turned_plate(cell, turn * std::numbers::pi / 6));
     const Rest rest = plate.hold();
