@@ -80,11 +80,13 @@ class FaceIntegral {
 
   void add_segment(int k, Vec2 middle, Vec2 along) {
     const double q = task_.domain.weight(middle - task_.domain.tip), length = norm(along);
+    const int crack = view_.crack[k];
+    const bool own = crack == task_.crack;
+    if (own)
+      find_cut(k, middle);
     if (!(q > 0) || !(length > 0))
       return;
-    const int crack = view_.crack[k];
     const Vec2 t = along * (1 / length);
-    const bool own = crack == task_.crack;
     if (own && bears_)
       add_own_tractions(k, q, cell_of(middle));
     const double turn = std::fabs(cross(t, task_.heading));
@@ -197,6 +199,15 @@ class FaceIntegral {
         return std::clamp(place, 0.0, 1.0);
     }
     return uncut;
+  }
+
+  void find_cut(int k, Vec2 middle) {
+    const Vec2 a = view_.plane[k], b = view_.plane[k + 1];
+    const double place = cut_at(k, cell_of(middle));
+    if (place == uncut)
+      return;
+    const double behind = norm(a + place * (b - a) - task_.domain.tip) - at_end * norm(b - a);
+    task_.sums.whole = std::min(task_.sums.whole, std::max(0.0, behind));
   }
 
   /// The nearest segment on one side of a cut one that is not, or -1.

@@ -164,7 +164,7 @@ class JSearch {
   void share(Tip& tip, const TipTask& task) const {
     const PlaneElasticity& solid = *task.solid;
     const double none = std::numeric_limits<double>::quiet_NaN();
-    const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell);
+    const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell, task.sums.whole);
     const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;

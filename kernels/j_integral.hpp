@@ -5,6 +5,7 @@
 // with m/t the mass per thickness, w the strain energy and tau the Kirchhoff stress per mass. For small strains this is
 // the integral as printed; at any strain and rotation it is that of the crack's length when it was stress-free.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "core/exec/space.hpp"
@@ -22,8 +23,10 @@ struct TipSums {
   double tractions = 0;             ///< J/m^2, of tractions on the crack's own faces, along its heading
   double interaction[2] = {0, 0};   ///< m^0.5, interaction integral over K, with the fields of K_I = 1 and K_II = 1
   double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
-  bool crossed = false;             ///< another crack lies in the domain
-  bool bent = false;                ///< the crack itself is not in line with its tip there
+  double whole = std::numeric_limits<double>::infinity();  ///< m, length of the crack's faces behind the tip that no
+                                                           ///< other crack cuts, if that is known to be short
+  bool crossed = false;                                    ///< another crack lies in the domain
+  bool bent = false;                                       ///< the crack itself is not in line with its tip there
 };
 
 /// A tip to sum around.

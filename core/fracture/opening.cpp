@@ -37,7 +37,7 @@ struct LineFit {
 
 }  // namespace
 
-Vec2 opening_behind(const Cracks& cracks, const Tip& tip, double h) {
+Vec2 opening_behind(const Cracks& cracks, const Tip& tip, double h, double whole) {
   const Vec2 t = heading_of(cracks, tip), n = turned(t);
   const double side = tip.last ? 1 : -1;  // the upper surface is to the left of the crack's own direction
   const int end = cracks.end_point(tip.crack, tip.last), other = cracks.end_point(tip.crack, !tip.last);
@@ -46,7 +46,7 @@ Vec2 opening_behind(const Cracks& cracks, const Tip& tip, double h) {
   double behind = 0;
   for (int k = end + step; k != other; k += step) {
     behind += norm(cracks.plane[k] - cracks.plane[k - step]);
-    if (behind > fit_to * h)
+    if (behind > fit_to * h || behind > whole)
       break;
     const Vec2 gap = (side / std::sqrt(behind)) * (cracks.upper[k] - cracks.lower[k]);
     const Vec2 opening{dot(gap, n), dot(gap, t)};

@@ -11,6 +11,8 @@
 //   1.5 .. 4, two                 +2.2,  -3.6 %      +2.0,  -3.3 %
 //   0.9 .. 6, three               +3.8,  -6.6 %      +5.1,  -8.9 %
 #pragma once
+#include <limits>
+
 #include "core/math/vec.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/tips.hpp"
@@ -24,8 +26,10 @@ Vec2 heading_of(const Cracks& cracks, const Tip& tip, bool first = false);
 /// heading has moved forwards), over the root of the distance, m^0.5: the a of
 ///   delta(r) = a sqrt(r) + b sqrt(r^3)
 /// that fits its points from 1.5 to 4 cells behind the tip best (all the same distances in weight). `h`: the cell.
-/// Of a shorter crack it is the mean of delta / sqrt(r) over the points from 0.9 cells on, or that next to the tip;
-/// zero if the crack has no points between its ends.
-Vec2 opening_behind(const Cracks& cracks, const Tip& tip, double h);
+/// Of a shorter crack, or one whose faces are `whole` (m) for less than that before another crack cuts them, it is the
+/// mean of delta / sqrt(r) over the points from 0.9 cells on, or that next to the tip; zero if the crack has no points
+/// between its ends.
+Vec2 opening_behind(const Cracks& cracks, const Tip& tip, double h,
+                    double whole = std::numeric_limits<double>::infinity());
 
 }  // namespace riven

@@ -60,5 +60,18 @@ TEST(Opening, OfAShortCrackIsThatOfItsPoints) {
   }
 }
 
+/// Behind a crack across, the faces have moved apart by as much as they like.
+TEST(Opening, StopsWhereAnotherCrackCutsTheFaces) {
+  const auto gap = [](double r) { return r < 2.7 ? std::sqrt(r) * Vec2{0.03, -0.02} : Vec2{5, -7}; };
+  const Cracks cracks = open_crack({0, 0}, {1, 0}, 40, gap);
+  Tip tip;
+  for (const bool last : {false, true}) {
+    tip.last = last;
+    const Vec2 o = opening_behind(cracks, tip, 1, 2.7);
+    EXPECT_NEAR(o.x, 0.03, 1e-9);
+    EXPECT_NEAR(o.y, -0.02, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace riven

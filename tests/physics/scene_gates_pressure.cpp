@@ -75,6 +75,11 @@ TEST(PressureTables, DISABLED_CrossingNearTheTip) {
   Plate plate = plate_with_V(23, {});
   print(name_of(23), plate.hold());
   expect_jump_left_out(plate, name_of(23), 16, plate.tip(4).J);
+  const Tip tip = plate.tip(16);
+  report(name_of(23) + ", K_II over K_I, by the opening up to V", tip.K_II / tip.K_I, "0.01");
+  EXPECT_TRUE(tip.crossed);
+  EXPECT_GT(tip.K_I, 0);
+  EXPECT_LT(std::abs(tip.K_II / tip.K_I), 0.01);
 }
 
 /// A pressure from the side presses V shut, and friction lets it bear the shear that would move its faces: the crack
