@@ -14,26 +14,45 @@ namespace {
 
 constexpr long points_of_task = 32;
 
-/// S* of both surfaces; false where one of them finds no mass.
+/// Spreads the force on the upper surface of a point, and its opposite on the lower one; false where one of them finds
+/// no mass.
 template <class Shape, class Real>
-bool weigh(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k, double least, PointForces& to) {
+bool spread(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k, Vec2 force, double least,
+            PointForces& to) {
   const Vec2 x[2] = {cracks.upper[k], cracks.lower[k]};
-  double mass[2] = {0, 0};
+  bool found[2] = {false, false};
   from.each_surface(crack_point(from.view, k), x, [&](int side, const auto& around, const auto& slot) {
     constexpr int width = AxisWeights::width;
     PointForces::Surface& s = to.surface[side];
-    for (int n = 0; n < PointForces::nodes; ++n) {
-      const int at = slot[n][side];
-      const double m = at < 0 ? 0 : double(from.grid.mass[at]);
-      s.slot[n] = std::max(at, 0);
-      s.weight[n] = m > least ? m * around.x.near[n % width] * around.y.near[n / width] : 0;
-      mass[side] += s.weight[n];
+    double mass[PointForces::nodes];
+    MotionSums sums;
+    for (int j = 0; j < width; ++j) {
+      RowSums row;
+      for (int i = 0; i < width; ++i) {
+        const int n = j * width + i, at = slot[n][side];
+        s.slot[n] = std::max(at, 0);
+        const double m = double(from.grid.mass[s.slot[n]]);
+        mass[n] = at >= 0 && m > least ? m : 0;
+        from.add(row, around.x, i, s.slot[n], mass[n]);
+      }
+      sums.add(row, around.y, j);
     }
+    found[side] = sums.near[3] > 0;
+    if (!found[side])
+      return;
+    const MassAround around_point(sums);
+    Vec2 rest = side == 0 ? force : -force;
+    const TurningForce turning(around_point, rest, from.grid.lattice.h);
+    // what rounding leaves of the second part, near a lone node many times its usual size, is taken from the first
+    for (int n = 0; n < PointForces::nodes; ++n) {
+      const int i = n % width, j = n / width;
+      s.force[n] = turning.on(mass[n], around.x.wide[i] * around.y.wide[j], {around.x.r[i], around.y.r[j]});
+      rest -= s.force[n];
+    }
+    for (int n = 0; n < PointForces::nodes; ++n)
+      s.force[n] += (mass[n] * around_point.near * around.x.near[n % width] * around.y.near[n / width]) * rest;
   });
-  for (int side = 0; side < 2; ++side)
-    for (double& w : to.surface[side].weight)
-      w /= mass[side];
-  return mass[0] > 0 && mass[1] > 0;
+  return found[0] && found[1];
 }
 
 }  // namespace
@@ -55,17 +74,16 @@ void apply_tractions(const exec::Space& space, State<Real, 2>& s, std::vector<Po
     const long end = std::min(points, (task + 1) * points_of_task);
     for (long k = task * points_of_task; k < end; ++k) {
       PointForces& f = forces[static_cast<size_t>(k)];
-      f.force = face_area(cracks, static_cast<int>(k)) * traction_on(cracks, static_cast<int>(k));
-      f.applied = (f.force.x != 0 || f.force.y != 0) && weigh(from, cracks, static_cast<int>(k), least, f);
+      const Vec2 force = face_area(cracks, static_cast<int>(k)) * traction_on(cracks, static_cast<int>(k));
+      f.applied = (force.x != 0 || force.y != 0) && spread(from, cracks, static_cast<int>(k), force, least, f);
     }
   });
   for (const PointForces& f : forces)
     for (int side = 0; f.applied && side < 2; ++side)
       for (int n = 0; n < PointForces::nodes; ++n) {
-        const double w = side == 0 ? f.surface[side].weight[n] : -f.surface[side].weight[n];
         Real* q = s.grid.q.data() + 4L * f.surface[side].slot[n];
-        q[2] += Real(w * f.force.x);
-        q[3] += Real(w * f.force.y);
+        q[2] += Real(f.surface[side].force[n].x);
+        q[3] += Real(f.surface[side].force[n].y);
       }
 }
 
@@ -74,20 +92,20 @@ void settle_tractions(const std::vector<PointForces>& forces, State<Real, 2>& s)
   const double dt = s.clock.dt;
   Cracks& cracks = s.cracks;
   Energy& energy = s.ledger.energy;
-  const auto velocity = [&](const PointForces::Surface& at) {
-    Vec2 mean;
+  const auto power = [&](const PointForces::Surface& at) {
+    double sum = 0;
     for (int n = 0; n < PointForces::nodes; ++n) {
       const Real* q = s.grid.q.data() + 4L * at.slot[n];
-      mean += at.weight[n] * Vec2{q[0] - 0.5 * dt * q[2], q[1] - 0.5 * dt * q[3]};
+      sum += dot(at.force[n], Vec2{q[0] - 0.5 * dt * q[2], q[1] - 0.5 * dt * q[3]});
     }
-    return mean;
+    return sum;
   };
   cracks.lead = cracks.upper_velocity.empty() ? 0 : 0.5 * dt;
   for (int k = 0; k < cracks.points(); ++k) {
     const TractionLaw& law = cracks.traction[static_cast<size_t>(cracks.crack[k])].law;
     const PointForces& f = forces[static_cast<size_t>(k)];
     if (law.kind == TractionLaw::Kind::pressure && f.applied)
-      energy.external_work += dt * dot(f.force, velocity(f.surface[0]) - velocity(f.surface[1]));
+      energy.external_work += dt * (power(f.surface[0]) + power(f.surface[1]));
     else if (const double area = face_area(cracks, k); law.kind == TractionLaw::Kind::cohesive && area > 0)
       energy.debonding += area * law.cohesive.damage(law_opening(cracks, k), cracks.cohesive[k]);
   }

@@ -1,8 +1,10 @@
 // Tractions between the faces of cracks as forces on the grid (Nairn and Aimene, eqs. 7 and 8):
 //
-//   f_ij += sum_s +-F_s S*_is,    +-F_s = -+A_k (T_n n + T_t t),    S*_is = m_ij N_i(x_s) / sum_i m_ij N_i(x_s),
+//   f_ij += sum_s +-F_s,i,    +-F_s = -+A_k (T_n n + T_t t),
 //
-// s the upper (+) and lower (-) surface of each crack point k, j the field that the surface sees at node i, A_k the
+// with F_s,i what a force on the surface is to its nodes (surface_velocity.hpp): S*_is F_s of eq. 7, which by itself
+// acts where the mass around x_s is, and the moment that takes it to x_s, so that nodes and faces do the same work. s
+// is the upper (+) and lower (-) surface of each crack point k, j the field that the surface sees at node i, A_k the
 // share of the present length of the segments around the point that lies in the solid, times its thickness. A point of
 // which one surface finds no mass bears nothing on either, so that momentum is kept; sums run in the order of the
 // points, whatever the number of threads.
@@ -19,10 +21,9 @@ struct PointForces {
   static constexpr int nodes = 9;
   struct Surface {
     int slot[nodes];
-    double weight[nodes];  ///< S*
+    Vec2 force[nodes];  ///< N
   };
   Surface surface[2];  ///< upper and lower
-  Vec2 force;          ///< on the upper one, N
   bool applied = false;
 };
 

@@ -14,6 +14,12 @@
 // smooth in x_s; lambda keeps what nodes in one row cannot tell, stretching across the row, out of L, and mu << lambda
 // all where there is a single node. v is the velocity before the forces, an average of the particles' that is sound
 // even where m is tiny; the acceleration f/m is not, and remains mass-weighted.
+//
+// A force F on the surface goes to the nodes by the transposed of v(x_s), so that the nodes do with it the work that
+// the surface does: with d = x_s - x*, F . L d = sum W_i (G r_i) . v_i, where G is the gradient of the same fit to F
+// d^T, and
+//   f_i = m_i N_i / (sum m N) F + W_i / (sum W) G (x_i - x^).
+// The second part adds up to nothing but the moment of F about x*.
 #pragma once
 #include <cmath>
 
@@ -109,23 +115,50 @@ struct MotionSums {
   }
 };
 
+/// How the mass lies around a point.
+struct MassAround {
+  double near, wide;     ///< 1 / sum m N and 1 / sum m B
+  Vec2 arm, centre;      ///< x_s - x* and x^ - x_s
+  double Cxx, Cxy, Cyy;  ///< mean of (x - x^) (x - x^)^T
+
+  explicit MassAround(const MotionSums& s)
+      : near(1 / s.near[3]),
+        wide(1 / s.wide[0]),
+        arm(-near * Vec2{s.near_rx, s.near_ry[3]}),
+        centre{wide * s.wide[1], wide * s.wide_ry[0]},
+        Cxx(wide * s.wide[2] - centre.x * centre.x),
+        Cxy(wide * s.wide_ry[1] - centre.x * centre.y),
+        Cyy(wide * s.wide_ry2[0] - centre.y * centre.y) {}
+
+  FittedGradient fit(Vec2 Qx, Vec2 Qy, double h) const { return fit_gradient(Cxx, Cxy, Cyy, Qx, Qy, h); }
+};
+
+/// The second part of a force on a surface. `h`: the cell.
+struct TurningForce {
+  double wide;
+  Vec2 centre;
+  FittedGradient G;
+
+  TurningForce(const MassAround& mass, Vec2 F, double h)
+      : wide(mass.wide), centre(mass.centre), G(mass.fit(mass.arm.x * F, mass.arm.y * F, h)) {}
+  /// On the node of mass m at r from the point, whose weight is B.
+  Vec2 on(double m, double B, Vec2 r) const { return (m * wide * B) * G(r - centre); }
+};
+
 /// The motion at the point. `h`: the cell.
 inline PointMotion fit_motion(const MotionSums& s, double h, double dt) {
-  const double mass = s.near[3];
-  if (!(mass > 0))
+  if (!(s.near[3] > 0))
     return {};
   const auto before = [dt](const Quad<double>& q, double scale) {
     return scale * Vec2{q[0] - dt * q[2], q[1] - dt * q[3]};
   };
-  const double near = 1 / mass, wide = 1 / s.wide[0];
-  const Vec2 r{wide * s.wide[1], wide * s.wide_ry[0]}, v = before(s.wide_q, wide);
-  const Vec2 Qx = before(s.rx_q, wide) - r.x * v, Qy = before(s.ry_q, wide) - r.y * v;
-  const FittedGradient L = fit_gradient(wide * s.wide[2] - r.x * r.x, wide * s.wide_ry[1] - r.x * r.y,
-                                        wide * s.wide_ry2[0] - r.y * r.y, Qx, Qy, h);
+  const MassAround mass(s);
+  const Vec2 r = mass.centre, v = before(s.wide_q, mass.wide);
+  const FittedGradient L = mass.fit(before(s.rx_q, mass.wide) - r.x * v, before(s.ry_q, mass.wide) - r.y * v, h);
   PointMotion m;
-  m.mass = mass;
-  m.before = before(s.near_q, near) + L(-near * Vec2{s.near_rx, s.near_ry[3]});
-  m.acceleration = near * Vec2{s.near_q[2], s.near_q[3]};
+  m.mass = s.near[3];
+  m.before = before(s.near_q, mass.near) + L(mass.arm);
+  m.acceleration = mass.near * Vec2{s.near_q[2], s.near_q[3]};
   m.spin = L.spin;
   return m;
 }
