@@ -1,9 +1,10 @@
 // How far may a particle and the cracks move before its crossings can change?
 //
 // Whether a path crosses a crack, and from where, changes only when the particle or the node passes through the crack,
-// or one of its tips through the path. A joint that passes through the path makes two crossings that cancel, or takes
-// the one crossing from a segment to the next. So as long as the particle's move plus the crack's stays below the least
-// of these distances, nothing changes, and a pair need not be tested again.
+// or one of its tips through the path, or where the node comes to lie ahead of an open tip or does so no longer. A
+// joint that passes through the path makes two crossings that cancel, or takes the one crossing from a segment to the
+// next, which matters only next to a tip of which the node lies ahead. So as long as the particle's move plus the
+// crack's stays below the least of these distances, nothing changes, and a pair need not be tested again.
 #pragma once
 #include <algorithm>
 #include <cmath>

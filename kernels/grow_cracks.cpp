@@ -164,6 +164,7 @@ class Growth {
   void close(Tip& t, CrackEvent::Kind kind, Vec2 place, int other) {
     record(t, kind, place, other);
     t.open = t.running = false;
+    s_.cracks.set_open(t.crack, t.last, false);
     t.speed = 0;
     t.J = t.J1 = t.J2 = t.K_I = t.K_II = t.M_I = t.M_II = 0;  // there is no tip any more
   }

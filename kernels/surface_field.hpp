@@ -19,9 +19,11 @@ struct SurfaceView {
   const int* cell_segment;
   const int* node_index;
   const NodeCracks* nodes;
-  const int* crack;   ///< [points]
-  const int* start;   ///< [cracks + 1]
-  const Vec2* plane;  ///< [points]
+  const int* crack;          ///< [points]
+  const int* start;          ///< [cracks + 1]
+  const Vec2* plane;         ///< [points]
+  const Vec2* traced;        ///< [points] as paths see them
+  const std::uint8_t* open;  ///< [2 cracks] 1 for tips
 };
 
 inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
@@ -33,13 +35,15 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
           fields.nodes.data(),
           cracks.crack.data(),
           cracks.start.data(),
-          cracks.plane.data()};
+          cracks.plane.data(),
+          fields.traced.data(),
+          cracks.open.data()};
 }
 
 /// A crack's point and the crack around it.
 struct CrackPoint {
   int crack;
-  Vec2 x;
+  Vec2 x;       ///< as paths see it
   Vec2 left;    ///< normal, towards above
   Vec2 beyond;  ///< direction in which the crack ends here, 0 unless the point is a tip
   bool tip;     ///< a tip of the crack in reach of the nodes around the point
@@ -48,8 +52,8 @@ struct CrackPoint {
 
 inline CrackPoint crack_point(const SurfaceView& view, int point) {
   const int crack = view.crack[point], first = view.start[crack], last = view.start[crack + 1] - 1;
-  const Vec2 x = view.plane[point];
-  const Vec2 along = view.plane[point < last ? point + 1 : point] - view.plane[point > first ? point - 1 : point];
+  const Vec2 x = view.traced[point];
+  const Vec2 along = view.traced[point < last ? point + 1 : point] - view.traced[point > first ? point - 1 : point];
   const double length = norm(along), h = view.lattice.h, reach = 1.6 * h;
   const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
   CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, 0};
@@ -57,7 +61,7 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
   for (int step : {-1, 1}) {
     int k = point + step;
     for (; k >= first && k <= last; k += step) {
-      const Vec2 r = view.plane[k] - x;
+      const Vec2 r = view.traced[k] - x;
       if (std::fabs(r.x) > reach || std::fabs(r.y) > reach)
         break;
       bend = std::max(bend, std::fabs(dot(r, p.left)));
@@ -65,8 +69,9 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
     }
     p.tip = p.tip || k < first || k > last;
   }
-  p.off =
-      back >= 0 && bend < 0.25 * h ? std::min(0.3 * h, 4 * bend + 0.02 * h) : std::numeric_limits<double>::infinity();
+  const double least = p.tip ? bend + tip_zone * h : 0.02 * h;  // what lies ahead of a tip takes a closer look
+  p.off = back >= 0 && bend < 0.25 * h ? std::max(least, std::min(0.3 * h, 4 * bend + 0.02 * h))
+                                       : std::numeric_limits<double>::infinity();
   return p;
 }
 
@@ -99,16 +104,18 @@ namespace detail {
 
 /// The side from which the line from `from` to n crosses the segments [at, end), all of one crack.
 inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, int at, int end) {
-  const int crack = view.crack[view.cell_segment[at]], first = view.start[crack], last = view.start[crack + 1] - 1;
+  const int crack = view.crack[view.cell_segment[at]];
+  const CrackPath path{view.traced, view.start[crack], view.start[crack + 1] - 1, view.open + 2 * crack,
+                       view.lattice.h};
   const double left = std::min(from.x, n.x), right = std::max(from.x, n.x);
   const double lower = std::min(from.y, n.y), upper = std::max(from.y, n.y);
   CrossingSum sum;
   for (; at < end; ++at) {
     const int k = view.cell_segment[at];
-    const Vec2 a = view.plane[k], b = view.plane[k + 1];
+    const Vec2 a = view.traced[k], b = view.traced[k + 1];
     const bool beside = (a.x < left && b.x < left) || (a.x > right && b.x > right);
     if (!beside && !((a.y < lower && b.y < lower) || (a.y > upper && b.y > upper)))
-      sum.add(crossing(from, n, view.plane + k, k == first, k + 1 == last));
+      sum.add(path.crossed(from, n, k));
   }
   return sum.side();
 }

@@ -13,15 +13,26 @@ namespace riven {
 
 namespace {
 
+/// Where paths see a point of a crack.
+Vec2 path_point(const Lattice& lattice, const Cracks& cracks, int k) {
+  const int c = cracks.crack[k];
+  for (const bool last : {false, true})
+    if (k == cracks.end_point(c, last) && cracks.is_open(c, last))
+      return drawn_back(cracks.plane[k], cracks.plane[cracks.next_to_end(c, last)], lattice.h);
+  return cracks.plane[k];
+}
+
 /// Forgets all crossings, after a hash, a sort, or when room ran out.
-void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& fields) {
+void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.memory.resize(particles);
   fields.limit.resize(particles);
-  fields.turned.resize(nodes);
+  fields.turned.resize(lattice.nodes());
   fields.block_limit.resize(particles / exec::lanes + fields.marked_tiles.size() + 1);
   fields.tiles.resize(fields.marked_tiles.size());
   fields.crack_move.resize(cracks.count());
-  fields.traced = cracks.plane;
+  fields.traced.resize(cracks.points());
+  for (int k = 0; k < cracks.points(); ++k)
+    fields.traced[k] = path_point(lattice, cracks, k);
   fields.fields.resize(particles);
   fields.crossing.resize(fields.block_limit.size());
   fields.block_slots.resize(fields.block_limit.size());
@@ -40,13 +51,13 @@ void begin_anew(long particles, long nodes, const Cracks& cracks, CrackFields& f
 }
 
 /// Moves of the cracks since the last trace.
-void follow_moves(const exec::Space& space, const Cracks& cracks, CrackFields& fields) {
+void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   exec::launch(space, cracks.count(), [&](long c) {
     double most2 = 0;
     for (int k = cracks.start[static_cast<size_t>(c)]; k < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
-      const Vec2 move = cracks.plane[k] - fields.traced[k];
+      const Vec2 now = path_point(lattice, cracks, k), move = now - fields.traced[k];
       most2 = std::max(most2, dot(move, move));
-      fields.traced[k] = cracks.plane[k];
+      fields.traced[k] = now;
     }
     fields.crack_move[c] = std::sqrt(most2);
   });
@@ -59,18 +70,29 @@ void follow_moves(const exec::Space& space, const Cracks& cracks, CrackFields& f
 /// Nearer than this (in cells) to a segment, nodes are followed by their sides.
 constexpr double near_cells = 0.02;
 
-/// Distance of a node from its segments, and which of them it is next to. Next to any but one or two joined ones it is
-/// not followed.
+/// How far a node is from the edges of the zones of the open tips of a segment.
+double zone_clearance(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, Vec2 x, int segment) {
+  const int c = cracks.crack[segment];
+  double least = std::numeric_limits<double>::max();
+  for (const bool last : {false, true})
+    if (segment + last == cracks.end_point(c, last) && cracks.is_open(c, last))
+      least = std::min(least, std::fabs(to_tip_zone(x, fields.traced[segment + last], lattice.h)));
+  return least;
+}
+
+/// Distance of a node from its segments and from the zones of their tips, and which segments it is next to. Next to any
+/// but one or two joined ones it is not followed.
 void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, long f, NodeClearance& c) {
   const Vec2 x = lattice.position(fields.nodes[f].node);
   const double near2 = near_cells * near_cells * lattice.h * lattice.h;
-  double least2 = std::numeric_limits<double>::max(), others2 = least2;
+  double least2 = std::numeric_limits<double>::max(), others2 = least2, zones = least2;
   int count = 0, segment[2] = {-1, -1};
   const int end = fields.segment_start[fields.candidate_start[f + 1]];
   for (int s = fields.segment_start[fields.candidate_start[f]]; s < end; ++s) {
     const int k = fields.node_segment[s];
-    const double d2 = distance2(x, cracks.plane[k], cracks.plane[k + 1]);
+    const double d2 = distance2(x, fields.traced[k], fields.traced[k + 1]);
     least2 = std::min(least2, d2);
+    zones = std::min(zones, zone_clearance(lattice, cracks, fields, x, k));
     if (d2 >= near2)
       others2 = std::min(others2, d2);
     else if (count++ < 2)
@@ -79,7 +101,7 @@ void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackField
   const bool joined =
       count == 2 && segment[1] == segment[0] + 1 && cracks.crack[segment[0]] == cracks.crack[segment[1]];
   const bool followed = count == 1 || joined;
-  c.measured = std::sqrt(followed ? others2 : least2);
+  c.measured = std::min(zones, std::sqrt(followed ? others2 : least2));
   c.travel = fields.travel;
   c.near = followed ? segment[0] : -1;
   c.joined = joined;
@@ -95,7 +117,7 @@ bool follow_node(const Lattice& lattice, const Cracks& cracks, CrackFields& fiel
     measure_node(lattice, cracks, fields, f, c);
   c.now = std::max(0., c.measured - (fields.travel - c.travel));
   if (c.near >= 0) {
-    const Vec2* at = cracks.plane.data() + c.near;
+    const Vec2* at = fields.traced.data() + c.near;
     const Vec2 x = lattice.position(fields.nodes[f].node);
     c.sides = c.joined ? pack_sides(orientation(at[0], at[1], x), orientation(at[1], at[2], x),
                                     orientation(at[0], at[1], at[2]))
@@ -124,10 +146,10 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
   const exec::Stopwatch watch(space.timers(), "trace crossings");
   const bool afresh = fields.order != particles.tiles.order || fields.memory.size() != particles.count();
   if (afresh)
-    begin_anew(particles.count(), lattice.nodes(), cracks, fields);
+    begin_anew(particles.count(), lattice, cracks, fields);
   fields.order = particles.tiles.order;
   ++fields.traces;
-  follow_moves(space, cracks, fields);
+  follow_moves(space, lattice, cracks, fields);
   exec::launch(space, (fields.nodes.size() + exec::chunk - 1) / exec::chunk, [&](long c) {
     const long end = std::min(fields.nodes.size(), (c + 1) * exec::chunk);
     for (long f = c * exec::chunk; f < end; ++f)
@@ -142,7 +164,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
     if (fields.used <= fields.records.size())
       return;
     fields.records.resize(fields.used + fields.used / 2);
-    begin_anew(particles.count(), lattice.nodes(), cracks, fields);
+    begin_anew(particles.count(), lattice, cracks, fields);
   }
 }
 

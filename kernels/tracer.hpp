@@ -185,7 +185,7 @@ class Tracer {
     for (int s = 0; s < list.count; s += batch) {
       const SegmentList part{list.segment + s, std::min(batch, list.count - s)};
       Masks bits[Paths<Shape>::groups];
-      if (!paths.may_cross(part, in_.cracks.plane.data(), inv_h_, bits))
+      if (!paths.may_cross(part, fields_.traced.data(), inv_h_, bits))
         continue;
       for (int k = 0; k < nodes; ++k)
         if (const auto some = static_cast<std::uint32_t>(bits[k / float_lanes][k % float_lanes]))
@@ -198,13 +198,10 @@ class Tracer {
   }
 
   void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits, CrossingSum& sum) {
-    const int first = in_.cracks.start[static_cast<size_t>(crack)],
-              last = in_.cracks.start[static_cast<size_t>(crack) + 1];
-    for (; bits; bits &= bits - 1) {
-      const int segment = list.segment[std::countr_zero(bits)];
-      sum.add(crossing(paths.particle, node(paths, k), in_.cracks.plane.data() + segment, segment == first,
-                       segment + 2 == last));
-    }
+    const CrackPath path{fields_.traced.data(), in_.cracks.end_point(crack, false), in_.cracks.end_point(crack, true),
+                         in_.cracks.open.data() + 2 * crack, in_.lattice.h};
+    for (; bits; bits &= bits - 1)
+      sum.add(path.crossed(paths.particle, node(paths, k), list.segment[std::countr_zero(bits)]));
   }
 
   void record(const Paths<Shape>& paths, int crack, int k, bool below) {
@@ -244,7 +241,7 @@ class Tracer {
       clear2_ = std::min(clear2_, c.now * c.now);
       if (c.near >= 0 && on_line(c))
         for (int s = c.near; s <= c.near + c.joined; ++s) {
-          const double clear = line_clearance(paths.particle, in_.cracks.plane[s], in_.cracks.plane[s + 1]);
+          const double clear = line_clearance(paths.particle, fields_.traced[s], fields_.traced[s + 1]);
           clear2_ = std::min(clear2_, clear * clear);
         }
     }
@@ -254,15 +251,26 @@ class Tracer {
   void take_crack_clearance(const Paths<Shape>& paths, int crack, SegmentList list) {
     const int first = in_.cracks.start[static_cast<size_t>(crack)],
               last = in_.cracks.start[static_cast<size_t>(crack) + 1] - 1;
-    const Vec2* point = in_.cracks.plane.data();
+    const Vec2* point = fields_.traced.data();
     for (int s = 0; s < list.count; ++s) {
       const int a = list.segment[s];
       clear2_ = std::min(clear2_, distance2(paths.particle, point[a], point[a + 1]));
       if (a == first)
-        paths.take_distance2(point[a], inv_h_, path_clear2_);
+        take_end_clearance(paths, crack, false, point[a], point[a + 1]);
       if (a + 1 == last)
-        paths.take_distance2(point[a + 1], inv_h_, path_clear2_);
+        take_end_clearance(paths, crack, true, point[a + 1], point[a]);
     }
+  }
+
+  /// Takes the distance of a crack's end from all paths, and that of the joint next to it from those that end ahead of
+  /// the tip: these do not cross the segment between, but those beyond.
+  void take_end_clearance(const Paths<Shape>& paths, int crack, bool last, Vec2 end, Vec2 joint) {
+    paths.take_distance2(end, inv_h_, path_clear2_);
+    if (!in_.cracks.is_open(crack, last))
+      return;
+    for (int k = 0; k < nodes; ++k)
+      if (const Vec2 n = node(paths, k); to_tip_zone(n, end, in_.lattice.h) < 0)
+        clear2_ = std::min(clear2_, distance2(joint, paths.particle, n));
   }
 
   /// The least distance taken from the paths, below the true one by more than single precision may be off.

@@ -57,6 +57,7 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
     std::copy(all.begin(), all.end(), a->begin());
   }
   cracks.crack.resize(n);
+  cracks.open.resize(2 * cracks.count());
   std::copy(owner.begin(), owner.end(), cracks.crack.begin());
   if (scene.surface_update == SurfaceUpdate::xpic) {
     cracks.upper_velocity.resize(n);

@@ -1,5 +1,6 @@
 // Cracks: polylines of massless particles, all cracks flattened into one set of arrays.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct Cracks {
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
   std::vector<Junction> junctions;
+  exec::Array<std::uint8_t> open;  ///< [2 cracks] first and last ends: 1 for a tip, one that ends in the solid
 
   // tractions on faces; see tractions.hpp
   std::vector<CrackTraction> traction;    ///< of each crack; none where the plan has no tractions
@@ -55,6 +57,9 @@ struct Cracks {
     return last ? start[static_cast<size_t>(c) + 1] - 1 : start[static_cast<size_t>(c)];
   }
   int next_to_end(int c, bool last) const { return end_point(c, last) + (last ? -1 : 1); }
+
+  bool is_open(int c, bool last) const { return open[2 * c + last] != 0; }
+  void set_open(int c, bool last, bool is) { open[2 * c + last] = is; }
 
   int count() const { return static_cast<int>(names.size()); }
   int points() const { return start.back(); }

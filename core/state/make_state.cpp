@@ -121,6 +121,8 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     for (const Body& b : scene.bodies)
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
+    for (const Tip& t : make_tips(scene))
+      s.cracks.set_open(t.crack, t.last, true);
     if (plan.tractions)
       lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
