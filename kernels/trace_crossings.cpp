@@ -13,15 +13,6 @@ namespace riven {
 
 namespace {
 
-/// Where paths see a point of a crack.
-Vec2 path_point(const Lattice& lattice, const Cracks& cracks, int k) {
-  const int c = cracks.crack[k];
-  for (const bool last : {false, true})
-    if (k == cracks.end_point(c, last) && cracks.is_open(c, last))
-      return drawn_back(cracks.plane[k], cracks.plane[cracks.next_to_end(c, last)], lattice.h);
-  return cracks.plane[k];
-}
-
 /// Forgets all crossings, after a hash, a sort, or when room ran out.
 void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.memory.resize(particles);
@@ -31,8 +22,9 @@ void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, Cr
   fields.tiles.resize(fields.marked_tiles.size());
   fields.crack_move.resize(cracks.count());
   fields.traced.resize(cracks.points());
-  for (int k = 0; k < cracks.points(); ++k)
-    fields.traced[k] = path_point(lattice, cracks, k);
+  fields.path_ends.resize(cracks.count());
+  for (int c = 0; c < cracks.count(); ++c)
+    fields.path_ends[c] = see_crack(cracks, c, lattice.h, fields.traced.data());
   fields.fields.resize(particles);
   fields.crossing.resize(fields.block_limit.size());
   fields.block_slots.resize(fields.block_limit.size());
@@ -52,12 +44,15 @@ void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, Cr
 
 /// Moves of the cracks since the last trace.
 void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  fields.traced.swap(fields.traced_before);
+  fields.traced.resize(cracks.points());
   exec::launch(space, cracks.count(), [&](long c) {
-    double most2 = 0;
+    const PathEnds ends = see_crack(cracks, static_cast<int>(c), lattice.h, fields.traced.data());
+    double most2 = ends == fields.path_ends[c] ? 0 : lattice.h * lattice.h;  // more than any path is clear by
+    fields.path_ends[c] = ends;
     for (int k = cracks.start[static_cast<size_t>(c)]; k < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
-      const Vec2 now = path_point(lattice, cracks, k), move = now - fields.traced[k];
+      const Vec2 move = fields.traced[k] - fields.traced_before[k];
       most2 = std::max(most2, dot(move, move));
-      fields.traced[k] = now;
     }
     fields.crack_move[c] = std::sqrt(most2);
   });
@@ -70,13 +65,14 @@ void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks
 /// Nearer than this (in cells) to a segment, nodes are followed by their sides.
 constexpr double near_cells = 0.02;
 
-/// How far a node is from the edges of the zones of the open tips of a segment.
+/// How far a node is from the edges of the zones of the open tips at which a segment ends.
 double zone_clearance(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, Vec2 x, int segment) {
-  const int c = cracks.crack[segment];
+  const PathEnds& ends = fields.path_ends[cracks.crack[segment]];
   double least = std::numeric_limits<double>::max();
-  for (const bool last : {false, true})
-    if (segment + last == cracks.end_point(c, last) && cracks.is_open(c, last))
-      least = std::min(least, std::fabs(to_tip_zone(x, fields.traced[segment + last], lattice.h)));
+  if (ends.open[0] && segment <= ends.zone[0])
+    least = std::fabs(to_end_zone(x, fields.traced[ends.point[0]], lattice.h));
+  if (ends.open[1] && segment + 1 >= ends.zone[1])
+    least = std::min(least, std::fabs(to_end_zone(x, fields.traced[ends.point[1]], lattice.h)));
   return least;
 }
 

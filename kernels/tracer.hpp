@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "core/fracture/crossing.hpp"
+#include "core/fracture/crack_path.hpp"
 #include "core/math/shape.hpp"
 #include "core/state/bodies.hpp"
 #include "core/state/cracks.hpp"
@@ -198,8 +198,7 @@ class Tracer {
   }
 
   void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits, CrossingSum& sum) {
-    const CrackPath path{fields_.traced.data(), in_.cracks.end_point(crack, false), in_.cracks.end_point(crack, true),
-                         in_.cracks.open.data() + 2 * crack, in_.lattice.h};
+    const CrackPath path{fields_.traced.data(), fields_.path_ends[crack], in_.lattice.h};
     for (; bits; bits &= bits - 1)
       sum.add(path.crossed(paths.particle, node(paths, k), list.segment[std::countr_zero(bits)]));
   }
@@ -249,28 +248,29 @@ class Tracer {
 
   /// Takes the distances of the particle from the segments of one crack, and of the crack's tips from all paths.
   void take_crack_clearance(const Paths<Shape>& paths, int crack, SegmentList list) {
-    const int first = in_.cracks.start[static_cast<size_t>(crack)],
-              last = in_.cracks.start[static_cast<size_t>(crack) + 1] - 1;
+    const PathEnds& ends = fields_.path_ends[crack];
     const Vec2* point = fields_.traced.data();
     for (int s = 0; s < list.count; ++s) {
       const int a = list.segment[s];
       clear2_ = std::min(clear2_, distance2(paths.particle, point[a], point[a + 1]));
-      if (a == first)
-        take_end_clearance(paths, crack, false, point[a], point[a + 1]);
-      if (a + 1 == last)
-        take_end_clearance(paths, crack, true, point[a + 1], point[a]);
+      if (a == ends.point[0])
+        take_end_clearance(paths, ends, 0);
+      if (a + 1 == ends.point[1])
+        take_end_clearance(paths, ends, 1);
     }
   }
 
-  /// Takes the distance of a crack's end from all paths, and that of the joint next to it from those that end ahead of
-  /// the tip: these do not cross the segment between, but those beyond.
-  void take_end_clearance(const Paths<Shape>& paths, int crack, bool last, Vec2 end, Vec2 joint) {
+  /// Takes the distance of a crack's end from all paths, and from those that end ahead of an open one that of the joint
+  /// up to which they do not cross it.
+  void take_end_clearance(const Paths<Shape>& paths, const PathEnds& ends, int last) {
+    const Vec2 end = fields_.traced[ends.point[last]];
     paths.take_distance2(end, inv_h_, path_clear2_);
-    if (!in_.cracks.is_open(crack, last))
+    const int joint = ends.zone[last] + (last ? -1 : 1);
+    if (!ends.open[last] || joint < ends.point[0] || joint > ends.point[1])
       return;
     for (int k = 0; k < nodes; ++k)
-      if (const Vec2 n = node(paths, k); to_tip_zone(n, end, in_.lattice.h) < 0)
-        clear2_ = std::min(clear2_, distance2(joint, paths.particle, n));
+      if (const Vec2 n = node(paths, k); to_end_zone(n, end, in_.lattice.h) < 0)
+        clear2_ = std::min(clear2_, distance2(fields_.traced[joint], paths.particle, n));
   }
 
   /// The least distance taken from the paths, below the true one by more than single precision may be off.

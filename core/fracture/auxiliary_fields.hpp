@@ -109,7 +109,7 @@ class FieldsRunning {
 /// Calls f with the fields of a tip. Those of a running tip tend to those at rest as the square of the speed, but by
 /// differences of nearly equal numbers.
 template <class F>
-RIVEN_INLINE decltype(auto) with_fields(const PlaneElasticity& solid, const RunningTip& tip, F&& f) {
+decltype(auto) with_fields(const PlaneElasticity& solid, const RunningTip& tip, F&& f) {
   if (tip.speed > 0.05 * solid.shear_speed)
     return f(FieldsRunning(solid, tip));
   return f(FieldsAtRest(solid));

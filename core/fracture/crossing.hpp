@@ -14,24 +14,9 @@
 //   - a path through a joint takes the joint as lying on the positive side of the path: it counts once where the crack
 //     passes from one side of the path to the other, and evenly where it only touches.
 // A path through a tip crosses nothing, and a particle on a segment does not cross it, as in the table.
-//
-// At an open tip, one that ends in the solid, that is not enough. A tip on a node, or where paths from particles to
-// nodes happen to meet, as on a line of the grid, ties with many of them at once; and once particles and tip have
-// moved, however little, such paths pass behind the tip on one face of the crack and before it on the other. What is
-// held together across the crack's line is then not symmetric about it, and mode II leaks into mode I: with a tip on a
-// node 18 % of it, at any load. So
-//   - paths see an open tip drawn back by `tip_gap`, an odd length, so that ties do not fall on places where tips are
-//     laid: fractions of cells, and where they grow to from there. It may be small: it need but exceed what particles
-//     near the tip move against it;
-//   - a node that lies within `tip_zone` of this place lies ahead of the tip: no path to it crosses the segment at the
-//     tip. Without, a node that is a little off the crack's line and about as far ahead of the tip or behind it is
-//     crossed on one side alone, wherever the tip is drawn back to. Between a node all of whose paths from one side
-//     cross, and one none of whose paths do, there is now nothing, as long as the crack's line passes it within about
-//     a third of the zone.
-// An end that leaves the solid or has joined another crack is not open: there every path around it would be a leak.
+// Near open tips more is needed: crack_path.hpp.
 #pragma once
 #include <cmath>
-#include <cstdint>
 
 #include "core/exec/config.hpp"
 #include "core/math/vec.hpp"
@@ -112,38 +97,6 @@ RIVEN_INLINE int crossing(Vec2 p, Vec2 n, const Vec2* point, bool first, bool la
     return 0;
   return (side_a < 0) != (side_b < 0) ? from : 0;
 }
-
-/// Cells by which paths see an open tip drawn back, and from there to the nodes that lie ahead of it.
-inline constexpr double tip_gap = 0.019, tip_zone = 0.1;
-
-/// Where paths see an open tip of a crack whose next point is `next`: never beyond the middle of the two.
-RIVEN_INLINE Vec2 drawn_back(Vec2 tip, Vec2 next, double h) {
-  const Vec2 back = next - tip;
-  const double length = norm(back);
-  return tip + (length > 2 * tip_gap * h ? tip_gap * h / length : 0.5) * back;
-}
-
-/// How far a node is from coming to lie ahead of an open tip, or to do so no longer; below zero where it lies ahead.
-RIVEN_INLINE double to_tip_zone(Vec2 n, Vec2 tip, double h) {
-  return norm(n - tip) - tip_zone * h;
-}
-
-/// One crack as paths see it.
-struct CrackPath {
-  const Vec2* point;         ///< [points] of all cracks, open tips drawn back
-  int first, last;           ///< end points of this one
-  const std::uint8_t* open;  ///< [2] whether these are open tips
-  double h;
-
-  /// How the path from p to n crosses the segment that starts at point k.
-  RIVEN_INLINE int crossed(Vec2 p, Vec2 n, int k) const {
-    const bool at_first = k == first, at_last = k + 1 == last;
-    if ((at_first && open[0] && to_tip_zone(n, point[first], h) < 0) ||
-        (at_last && open[1] && to_tip_zone(n, point[last], h) < 0))
-      return 0;
-    return crossing(p, n, point + k, at_first, at_last);
-  }
-};
 
 /// The crossings of one path with one crack, added up. An odd count crosses; the particle's side is the direction that
 /// prevails, so that a path which enters a fold and leaves it again reports the side it comes from.

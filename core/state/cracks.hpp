@@ -43,7 +43,8 @@ struct Cracks {
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
   std::vector<Junction> junctions;
-  exec::Array<std::uint8_t> open;  ///< [2 cracks] first and last ends: 1 for a tip, one that ends in the solid
+  double draw_back = 0;            ///< cells by which paths see open tips drawn back (crack_path.hpp)
+  exec::Array<std::uint8_t> open;  ///< [2 cracks] first and last ends: 1 for tips seen so (crack_path.hpp)
 
   // tractions on faces; see tractions.hpp
   std::vector<CrackTraction> traction;    ///< of each crack; none where the plan has no tractions

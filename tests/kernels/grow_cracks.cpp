@@ -228,6 +228,10 @@ TEST(GrowCracks, LeaveTheSolidInTwoParts) {
     Scene scene = plate({crack("edge", {{-1, y}, {6, y}})}, 25);
     scene.contact.law = ContactLaw::ignored;
     Driven run(scene, open);
+    // slowly: nothing turns the crack back, and as the solid stretches beside it, it turns into the next row of
+    // particles
+    for (double& v : run.m.state.particles.v[1])
+      v *= 0.1;
     EXPECT_GT(run.shared_fields([&](Vec2 x) { return above(x, y); }), 0);
     run.to_the_end();
     EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
