@@ -41,19 +41,20 @@ class FaceIntegral {
     const double inv = 1 / l.h;
     const Vec2 c = (d.tip - l.origin) * inv;
     const auto node = [](double x, int last) { return std::clamp(static_cast<int>(std::floor(x)), 1, last - 2); };
-    const auto first = [&](double room) {
-      return std::array{node(c.x - d.outer(left) * inv - room, l.nx), node(c.y - d.outer(bottom) * inv - room, l.ny)};
+    const auto box = [&](double room, double least) {
+      const auto reach = [&](Edge e) { return std::max(d.outer(e) * inv + room, least); };
+      return std::array{node(c.x - reach(left), l.nx), node(c.y - reach(bottom), l.ny), node(c.x + reach(right), l.nx),
+                        node(c.y + reach(top), l.ny)};
     };
-    const auto last = [&](double room) {
-      return std::array{node(c.x + d.outer(right) * inv + room, l.nx), node(c.y + d.outer(top) * inv + room, l.ny)};
-    };
-    corner_ = first(around);
-    width_ = last(around)[0] - corner_[0] + 1;
-    height_ = last(around)[1] - corner_[1] + 1;
-    // half a cell, as B-splines count cells from mid-cell to mid-cell
-    const auto low = first(0.5), high = last(0.5);
-    for (int j = low[1]; j <= high[1]; ++j)
-      for (int i = low[0]; i <= high[0]; ++i)
+    const std::array nodes = box(around, 0);
+    corner_ = {nodes[0], nodes[1]};
+    width_ = nodes[2] - nodes[0] + 1;
+    height_ = nodes[3] - nodes[1] + 1;
+    // half a cell more, as B-splines count cells from mid-cell to mid-cell; behind the tip its own faces are looked at
+    // as far as their opening is
+    const std::array cells = box(0.5, 5);
+    for (int j = cells[1]; j <= cells[3]; ++j)
+      for (int i = cells[0]; i <= cells[2]; ++i)
         add_cell(j * l.nx + i);
   }
 

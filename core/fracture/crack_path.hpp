@@ -18,7 +18,9 @@
 //     alone. Between a node all of whose paths from one side cross, and one none of whose paths do, there is now
 //     nothing, as long as the crack's line passes it within about a third of the zone.
 // An end that leaves the solid or has joined another crack is not open: there every path around it would be a leak.
-// Scenes that ask for nothing at tips see all ends as the table of crossing.hpp does.
+// Scenes that ask for nothing at tips see all ends as the table of crossing.hpp does; and so do those in which cracks
+// grow, as a tip that has turned goes on by how the faces next to it open, of which drawing back leaves too little:
+// cracks that turn by much, as that of `ten_cracks`, then curl up.
 #pragma once
 #include <algorithm>
 
@@ -28,7 +30,7 @@
 
 namespace riven {
 
-/// Cells by which tips are drawn back where J is asked for or cracks grow, unless the scene says otherwise.
+/// Cells by which tips are drawn back where J is asked for and no crack grows, unless the scene says otherwise.
 inline constexpr double own_length = 0.36;
 /// Cells around where paths see the end within which nodes lie ahead of it.
 inline constexpr double end_zone = 0.1;

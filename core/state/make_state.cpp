@@ -122,7 +122,7 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     for (const Body& b : scene.bodies)
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
-    if (plan.fracture || scene.draw_back) {
+    if ((plan.fracture && !plan.growth) || scene.draw_back) {
       s.cracks.draw_back = scene.draw_back.value_or(own_length);
       for (const Tip& t : make_tips(scene))
         s.cracks.set_open(t.crack, t.last, true);
