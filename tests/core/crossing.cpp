@@ -25,10 +25,11 @@ TEST(Orientation, IsExactWhereRoundingDecidesOtherwise) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<long long> wide(-(1ll << 52), 1ll << 52), near(-2, 2);
   std::uniform_real_distribution<double> along(-1, 2);
+  const auto quarter = [&] { return wide(random) / 4; };
   int rounded_wrongly = 0, zeros = 0;
   for (int i = 0; i < 200000; ++i) {
-    const Vec2 a{double(wide(random) / 4), double(wide(random) / 4)};
-    const Vec2 b{double(wide(random) / 4), double(wide(random) / 4)};
+    const Vec2 a{double(quarter()), double(quarter())};
+    const Vec2 b{double(quarter()), double(quarter())};
     const double t = along(random);
     // a point within a few units of the line, or, every fourth time, on it
     Vec2 c{std::round(a.x + t * (b.x - a.x)) + double(near(random)), std::round(a.y + t * (b.y - a.y))};
