@@ -11,8 +11,7 @@
 // them at once; and once particles and tip have moved, however little, such paths pass behind it on one face of the
 // crack and before it on the other. What is held together across the crack's line is then not symmetric about it, and
 // mode II leaks into mode I: with a tip on a node 18 % of it, at any load. So
-//   - the length is such that the ends of tips at simple fractions of a cell, and of where they grow to from there,
-//     are on no tie;
+//   - the length is such that the ends of tips at simple fractions of a cell are on no tie;
 //   - a node in the zone around the end lies ahead of the tip: no path to it crosses the crack in that zone. Without, a
 //     node that is a little off the crack's line and about as far ahead of the end or behind it is crossed on one side
 //     alone. Between a node all of whose paths from one side cross, and one none of whose paths do, there is now
@@ -41,12 +40,12 @@ inline constexpr double draw_back_at_most = 0.25;
 inline PathEnds see_crack(const Cracks& cracks, int crack, double h, Vec2* seen) {
   const int first = cracks.end_point(crack, false), end = cracks.end_point(crack, true);
   PathEnds ends{{first, end}, {first, end}, {cracks.is_open(crack, false), cracks.is_open(crack, true)}};
+  std::copy(cracks.plane.data() + first, cracks.plane.data() + end + 1, seen + first);
+  if (!ends.open[0] && !ends.open[1])
+    return ends;
   double length = 0;
-  for (int k = first; k <= end; ++k) {
-    seen[k] = cracks.plane[k];
-    if (k > first)
-      length += norm(cracks.plane[k] - cracks.plane[k - 1]);
-  }
+  for (int k = first; k < end; ++k)
+    length += norm(cracks.plane[k + 1] - cracks.plane[k]);
   for (const bool last : {false, true}) {
     if (!ends.open[last])
       continue;
