@@ -7,35 +7,40 @@
 // a cell inside the solid. At a point of the face the fields of the nodes of its cell are averaged by N_i(x) and the
 // area of particles behind each.
 #pragma once
-#include <vector>
+#include <array>
 
 #include "core/exec/config.hpp"
 #include "core/math/vec.hpp"
 
 namespace riven {
 
+/// What is asked for on a face, and where in FaceValues it begins.
+inline constexpr int face_energy = 0;   ///< strain and kinetic energy per first volume, Pa
+inline constexpr int face_eshelby = 1;  ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
+inline constexpr int face_stress = 5;   ///< [xx yy xy], Pa
+using FaceValues = std::array<double, 8>;
+
 /// Sums for the fits of one velocity field of one node; offsets are from the node, in cells.
 struct FieldFit {
-  static constexpr int values = 5;  ///< energy per first volume, then Eshelby's tensor [11 12 21 22], Pa
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< in cells
-  double f[values] = {}, fx[values] = {}, fy[values] = {};
+  FaceValues f{}, fx{}, fy{};
 
-  RIVEN_INLINE void add(double weight, double rx, double ry, const double* value) {
+  RIVEN_INLINE void add(double weight, double rx, double ry, const FaceValues& values) {
     area += weight;
     x += weight * rx;
     y += weight * ry;
     xx += weight * rx * rx;
     xy += weight * rx * ry;
     yy += weight * ry * ry;
-    for (int k = 0; k < values; ++k) {
-      const double w = weight * value[k];
+    for (size_t k = 0; k < values.size(); ++k) {
+      const double w = weight * values[k];
       f[k] += w;
       fx[k] += w * rx;
       fy[k] += w * ry;
     }
   }
   /// Adds weight * (value at offset r) of the fitted field to `to`.
-  void evaluate(Vec2 r, double weight, double* to) const;
+  void evaluate(Vec2 r, double weight, FaceValues& to) const;
 };
 
 }  // namespace riven

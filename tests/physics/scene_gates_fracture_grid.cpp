@@ -97,6 +97,10 @@ void expect_same_when_turned(double cell) {
   EXPECT_LT(std::abs(J[1] / J[0] - 1), 0.04);
 }
 
+TEST(TipOnTheGrid, MayBeTurned) {
+  expect_same_when_turned(1 * mm);
+}
+
 TEST(TipOnTheGrid, DISABLED_MayBeTurnedOnHalfMillimetreCells) {
   expect_same_when_turned(0.5 * mm);
 }

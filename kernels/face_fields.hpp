@@ -1,0 +1,217 @@
+// Energy and stresses on the faces of cracks near a tip, from the particles on either side (crack_faces.hpp). Fits of
+// nodes are made when first asked for and kept as long as their tip is looked at.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/fracture/j_domain.hpp"
+#include "core/state/state.hpp"
+#include "kernels/cell_rows.hpp"
+#include "kernels/crack_faces.hpp"
+#include "kernels/j_integral.hpp"
+#include "kernels/law_state.hpp"
+#include "kernels/surface_field.hpp"
+
+namespace riven {
+
+template <class Shape, class Law, class Real>
+class FaceFields {
+ public:
+  FaceFields(const State<Real, 2>& s, const SurfaceView& view, const TipTask& task)
+      : s_(s), view_(view), law_(laws<Law>(s)), task_(task), drift_(s.watch.drift / s.grid.lattice.h + 1e-6) {
+    const auto [lower, upper] = cells_of_domain(around, 0);
+    corner_ = lower;
+    width_ = upper[0] - lower[0] + 1;
+    height_ = upper[1] - lower[1] + 1;
+  }
+
+  int cell_of(Vec2 x) const {
+    const Lattice& l = s_.grid.lattice;
+    return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
+  }
+
+  struct Cells {
+    std::array<int, 2> lower, upper;
+  };
+  /// Cells as far as `room` cells around the tip's domain, and at least `least` from the tip.
+  Cells cells_of_domain(double room, double least) const {
+    const Lattice& l = s_.grid.lattice;
+    const JDomain& d = task_.domain;
+    const double inv = 1 / l.h;
+    const Vec2 c = (d.tip - l.origin) * inv;
+    const auto node = [](double x, int last) { return std::clamp(static_cast<int>(std::floor(x)), 1, last - 2); };
+    const auto reach = [&](Edge e) { return std::max(d.outer(e) * inv + room, least); };
+    return {{node(c.x - reach(left), l.nx), node(c.y - reach(bottom), l.ny)},
+            {node(c.x + reach(right), l.nx), node(c.y + reach(top), l.ny)}};
+  }
+
+  /// The values at x on one side of a crack, `normal` towards above, near a point `middle` of it; false where no
+  /// particle tells.
+  bool at(Vec2 x, int crack, Vec2 middle, Vec2 normal, Side side, FaceValues& values) {
+    const int last = view_.start[crack + 1] - 1;
+    const double reach = 1.6 * s_.grid.lattice.h;
+    const bool tip = norm(middle - view_.plane[view_.start[crack]]) < reach || norm(middle - view_.plane[last]) < reach;
+    const CrackPoint point{crack, middle, normal, {}, tip, std::numeric_limits<double>::infinity()};
+    SurfacePoint face{point, side, x, cell_of(x)};
+    double area = 0;
+    values = {};
+    add_nodes(face, values, area);
+    if (!(area > 0))
+      return false;
+    for (double& value : values)
+      value /= area;
+    return true;
+  }
+
+ private:
+  using Fits = std::array<FieldFit, 4>;
+
+  /// Adds up the fits of the nodes of the face point's cell, by `area`.
+  void add_nodes(SurfacePoint& face, FaceValues& values, double& area) {
+    const Lattice& l = s_.grid.lattice;
+    const Vec2 X = (face.x - l.origin) * (1 / l.h);
+    const int i = static_cast<int>(std::floor(X.x)), j = static_cast<int>(std::floor(X.y));
+    for (int n = 0; n < 4; ++n) {
+      const int ni = i + n % 2, nj = j + n / 2, node = nj * l.nx + ni;
+      if (static_cast<unsigned>(ni - corner_[0]) >= static_cast<unsigned>(width_) ||
+          static_cast<unsigned>(nj - corner_[1]) >= static_cast<unsigned>(height_))
+        continue;
+      const Vec2 r{X.x - ni, X.y - nj};
+      const double N = (1 - std::fabs(r.x)) * (1 - std::fabs(r.y));
+      if (!(N > 0))
+        continue;
+      const int f = view_.node_index[node];
+      int field = 0;
+      if (f >= 0) {
+        face.look(view_);
+        field = field_of_surface(view_, face, view_.nodes[f], l.position(ni, nj));
+      }
+      if (field < 0)
+        continue;
+      const FieldFit& fit = fits(ni, nj)[static_cast<size_t>(field)];
+      if (!(fit.area > least_area))
+        continue;
+      fit.evaluate(r, N * fit.area, values);
+      area += N * fit.area;
+    }
+  }
+
+  const Fits& fits(int i, int j) {
+    if (index_.empty())
+      index_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), -1);
+    int& at = index_[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
+    if (at < 0) {
+      at = static_cast<int>(fits_.size());
+      fits_.emplace_back();
+      sum_node(i, j, fits_.back());
+    }
+    return fits_[static_cast<size_t>(at)];
+  }
+
+  void sum_node(int I, int J, Fits& fits) {
+    const double reach = 1.5 + drift_;
+    for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
+      for (int i = Shape::cell(I - reach); i <= Shape::cell(I + reach); ++i) {
+        const auto [first, last] = seen_in(i, j);
+        for (int k = first; k < last; ++k)
+          seen_[static_cast<size_t>(k)].add(I, J, fits);
+      }
+  }
+
+  /// What a particle adds to the fits of its nodes.
+  struct Seen {
+    int base_x, base_y;
+    double x, y;  ///< from the first of its nodes, in cells
+    double weight_x[Shape::width], weight_y[Shape::width];
+    double area;  ///< in cells
+    std::uint32_t word;
+    FaceValues values;
+
+    void add(int I, int J, Fits& fits) const {
+      const int m = I - base_x, n = J - base_y;
+      if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
+        return;
+      const double S = weight_x[m] * weight_y[n];
+      if (S > 0)
+        fits[static_cast<size_t>(CrackFields::field_of(word, n * Shape::width + m))].add(area * S, x - m, y - n,
+                                                                                         values);
+    }
+  };
+  struct Range {
+    int first = -1, last = -1;
+  };
+
+  /// The particles of a cell, positions in seen_.
+  Range seen_in(int i, int j) {
+    const int x = i - corner_[0] + margin, y = j - corner_[1] + margin, width = width_ + 2 * margin;
+    if (of_cell_.empty())
+      of_cell_.resize(static_cast<size_t>(width) * static_cast<size_t>(height_ + 2 * margin));
+    if (x < 0 || y < 0 || x >= width || y >= height_ + 2 * margin)
+      return {0, 0};
+    Range& range = of_cell_[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    if (range.first < 0) {
+      range.first = static_cast<int>(seen_.size());
+      each_stretch_of_row(s_.grid.lattice, s_.particles.tiles.cell_start.data(), j, i, i, [&](int first, int last) {
+        for (int p = first; p < last; ++p)
+          see(p);
+      });
+      range.last = static_cast<int>(seen_.size());
+    }
+    return range;
+  }
+
+  void see(int i) {
+    const Particles<Real, 2>& p = s_.particles;
+    const Lattice& l = s_.grid.lattice;
+    const DomainSetting<Real, 2>& d = s_.domains[p.body[i]];
+    const double inv = 1 / l.h, X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
+    const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
+    const LawState<Real> state = law_state<Law>(p, i);
+    const auto& F = state.F;
+    const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
+    const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
+    const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
+    const Mat2<double> H = task_.gradient(F);
+    Seen seen;
+    seen.base_x = a.base;
+    seen.base_y = b.base;
+    seen.x = X - a.base;
+    seen.y = Y - b.base;
+    for (int k = 0; k < Shape::width; ++k) {
+      seen.weight_x[k] = a.s[k];
+      seen.weight_y[k] = b.s[k];
+    }
+    seen.area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
+    seen.word = s_.fields.fields[i];
+    seen.values[face_energy] = W * state.J;
+    seen.values[face_eshelby] = W * F.xx - (xx * H.xx + xy * H.yx);
+    seen.values[face_eshelby + 1] = W * F.yx - (xy * H.xx + yy * H.yx);
+    seen.values[face_eshelby + 2] = W * F.xy - (xx * H.xy + xy * H.yy);
+    seen.values[face_eshelby + 3] = W * F.yy - (xy * H.xy + yy * H.yy);
+    seen.values[face_stress] = xx;
+    seen.values[face_stress + 1] = yy;
+    seen.values[face_stress + 2] = xy;
+    seen_.push_back(seen);
+  }
+
+  static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
+  static constexpr int margin = 3;            ///< cells around those nodes in which their particles may be
+  static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
+
+  const State<Real, 2>& s_;
+  const SurfaceView& view_;
+  BodyLookup<Law> law_;
+  const TipTask& task_;
+  double drift_;
+  std::array<int, 2> corner_{0, 0};
+  int width_ = 0, height_ = 0;
+  std::vector<int> index_;  ///< [nodes of the domain] position in fits_, or -1
+  std::vector<Fits> fits_;
+  std::vector<Range> of_cell_;  ///< [cells of the domain and its margin]
+  std::vector<Seen> seen_;
+};
+
+}  // namespace riven

@@ -1,0 +1,149 @@
+// What tractions on the faces of a tip's own crack release as the tip moves on, and where other cracks cut these faces.
+//
+// With t on the upper face and delta the opening, upper less lower face, the faces add to J
+//   J_T = -int q t . d(delta)     (Nairn and Aimene, eq. 11)
+// and, with their eq. 12, nothing of the jump that delta makes where another crack cuts them: up to the cut on either
+// side delta goes on as in the segments before and behind. The interaction integrals add the same with the openings
+// that the fields of K_I = 1 and K_II = 1 have there: the traction on faces that are pressed together takes no part in
+// the opening, and yet the fields next to them bear it.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/fracture/auxiliary_fields.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/tractions.hpp"
+#include "kernels/j_integral.hpp"
+#include "kernels/surface_field.hpp"
+
+namespace riven {
+
+/// Traction on the upper face of a crack that is in contact, given that of the stresses next to it; zero where the law
+/// lets the faces part or slide. `normal` points towards above.
+inline Vec2 contact_traction(const ContactSettings& contact, Vec2 traction, Vec2 normal) {
+  const double pressure = dot(traction, normal);
+  const Vec2 shear = traction - pressure * normal;
+  switch (contact.law) {
+    case ContactLaw::ignored: return {};
+    case ContactLaw::bonded:
+    case ContactLaw::interface: return traction;
+    case ContactLaw::stick: return pressure > 0 ? traction : Vec2{};
+    case ContactLaw::frictionless: return std::max(0.0, pressure) * normal;
+    case ContactLaw::coulomb: {
+      const double held = norm(shear), most = contact.friction * pressure;
+      if (!(pressure > 0))
+        return {};
+      return pressure * normal + (held > most ? most / held : 1) * shear;
+    }
+  }
+  return {};
+}
+
+class OwnFaces {
+ public:
+  OwnFaces(const Cracks& cracks, const SurfaceView& view, TipTask& task) : cracks_(cracks), view_(view), task_(task) {}
+
+  /// Does a segment bear tractions of a law?
+  bool bears(int k) const { return !cracks_.bearing.empty() && cracks_.bearing[k].y > 0; }
+
+  /// Those, of a segment in a cell.
+  template <class CellOf>
+  void add_tractions(int k, double q, const CellOf& cell_of) {
+    add(k, q, cell_of, [this](int n) { return 0.5 * (traction_on(cracks_, n) + traction_on(cracks_, n + 1)); });
+  }
+  /// And that of contact.
+  template <class CellOf>
+  void add_contact(int k, double q, const CellOf& cell_of, Vec2 traction) {
+    add(k, q, cell_of, [traction](int) { return traction; });
+  }
+
+  /// Notes how far behind the tip another crack first cuts the faces.
+  void find_cut(int k, int cell) {
+    const Vec2 a = view_.plane[k], b = view_.plane[k + 1];
+    const double place = cut_at(k, cell);
+    if (place == uncut)
+      return;
+    const double behind = norm(a + place * (b - a) - task_.domain.tip) - at_end * norm(b - a);
+    task_.sums.whole = std::min(task_.sums.whole, std::max(0.0, behind));
+  }
+
+ private:
+  template <class CellOf, class Traction>
+  void add(int k, double q, const CellOf& cell_of, const Traction& traction) {
+    const double before = task_.other_faces ? cut_at(k, cell_of(k)) : uncut;
+    const auto work = [&](int n) {
+      return n < 0 ? 0 : dot(traction(n), opening_change(n)) * first_length(k) / first_length(n);
+    };
+    const double all = before == uncut ? work(k)
+                                       : before * work(uncut_beside(k, -1, cell_of)) +
+                                             (1 - before) * work(uncut_beside(k, 1, cell_of));
+    task_.sums.tractions -= task_.last ? q * all : -q * all;
+    if (task_.interaction && before == uncut)
+      add_known_opening(k, q, traction(k));
+  }
+
+  Vec2 opening_change(int k) const {
+    return (cracks_.upper[k + 1] - cracks_.lower[k + 1]) - (cracks_.upper[k] - cracks_.lower[k]);
+  }
+  double first_length(int k) const { return norm(cracks_.plane0[k + 1] - cracks_.plane0[k]); }
+
+  void add_known_opening(int k, double q, Vec2 traction) {
+    const Vec2 t = task_.heading, n = turned(t);
+    const double a = norm(view_.plane[k] - task_.domain.tip), b = norm(view_.plane[k + 1] - task_.domain.tip);
+    const double behind = 0.5 * (a + b);
+    const AuxiliaryFields above = auxiliary_fields(*task_.solid, task_.running, {-behind, 0.0}),
+                          below = auxiliary_fields(*task_.solid, task_.running, {-behind, -0.0});
+    // the slopes there times this are their integral, for they fall as one over the root of the distance
+    const double length = 2 * std::fabs(std::sqrt(a) - std::sqrt(b)) * std::sqrt(behind);
+    // the upper face of the crack is the left one of its last tip, the right one of its first
+    const double side = task_.last ? 1 : -1;
+    for (int mode = 0; mode < 2; ++mode) {
+      const double along = above.mode[mode].dux_dx - below.mode[mode].dux_dx;
+      const double across = above.mode[mode].duy_dx - below.mode[mode].duy_dx;
+      task_.sums.interaction[mode] -= q * length * side * (dot(traction, t) * along + dot(traction, n) * across);
+    }
+  }
+
+  /// Which part of a segment comes before the place where another crack cuts it or one of its ends, or `uncut`. An end
+  /// on that crack belongs to neither side of it.
+  double cut_at(int k, int cell) const {
+    const int seen = view_.cell_index[cell];
+    if (seen < 0)
+      return uncut;
+    const Vec2 a = view_.plane[k], along = view_.plane[k + 1] - a;
+    for (int at = view_.cell_start[seen]; at < view_.cell_start[seen + 1]; ++at) {
+      const int n = view_.cell_segment[at];
+      if (view_.crack[n] == task_.crack)
+        continue;
+      const Vec2 r = view_.plane[n] - a, across = view_.plane[n + 1] - view_.plane[n];
+      const double det = cross(along, across);
+      const double place = cross(r, across) / det, there = cross(r, along) / det;
+      if (place >= -at_end && place <= 1 + at_end && there >= 0 && there <= 1)
+        return std::clamp(place, 0.0, 1.0);
+    }
+    return uncut;
+  }
+
+  /// The nearest segment on one side of a cut one that is not, or -1.
+  template <class CellOf>
+  int uncut_beside(int k, int step, const CellOf& cell_of) const {
+    for (int n = k + step; std::abs(n - k) <= 2; n += step) {
+      if (n < view_.start[task_.crack] || n + 1 >= view_.start[task_.crack + 1])
+        return -1;
+      const int cell = cell_of(n);
+      if (view_.cell_index[cell] >= 0 && cut_at(n, cell) == uncut)
+        return n;
+    }
+    return -1;
+  }
+
+  static constexpr double uncut = -1;
+  static constexpr double at_end = 0.25;  ///< of a segment: how near to its end a cut is one of the end
+
+  const Cracks& cracks_;
+  const SurfaceView& view_;
+  TipTask& task_;
+};
+
+}  // namespace riven
