@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
@@ -62,16 +63,31 @@ class Growth {
   std::optional<Vec2> next_way() const {
     if (tip_.sound)
       return growth_direction(*rule_, tip_, ahead_);
-    return tip_.running && at_edge() ? std::optional(ahead_) : std::nullopt;
+    return tip_.running ? way_out() : std::nullopt;
   }
 
-  /// Whether the edge of the solid, or another crack, lies ahead within the contour.
-  bool at_edge() const {
-    const double reach = (0.5 * scene_.fracture.contour + 1) * scene_.cell;
-    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, ahead_, reach, 0))
+  /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
+  /// angle, within a cell and a half: what is left of the solid there is less than any contour can tell about.
+  std::optional<Vec2> way_out() const {
+    if (ends_within(ahead_, (0.5 * scene_.fracture.contour + 1) * scene_.cell))
+      return ahead_;
+    constexpr int angles = 5;
+    for (int k = 1; k <= angles; ++k)
+      for (const double sign : {1., -1.}) {
+        const double angle = sign * k * std::numbers::pi / (2 * angles);
+        const Vec2 way = std::cos(angle) * ahead_ + std::sin(angle) * turned(ahead_);
+        if (ends_within(way, 1.5 * scene_.cell))
+          return way;
+      }
+    return std::nullopt;
+  }
+
+  /// Whether the edge of the solid, or another crack, lies within reach.
+  bool ends_within(Vec2 way, double reach) const {
+    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0))
       return true;
     for (double d = 0; d < reach; d += particle_)
-      if (!solid_ahead(s_, x_ + d * ahead_, ahead_, particle_))
+      if (!solid_ahead(s_, x_ + d * way, way, particle_))
         return true;
     return false;
   }

@@ -470,6 +470,21 @@ TEST(GrowCracks, NeedAJThatCanBeTrusted) {
   EXPECT_EQ(run.m.state.events.back().kind, Kind::exit);
 }
 
+/// One that runs along an edge less than a cell away breaks through to it where no contour fits in between.
+TEST(GrowCracks, BreakThroughToAnEdgeBesideTheirWay) {
+  for (const double y : {0.9, 15.1}) {
+    Driven run(plate({crack("edge", {{-1, y}, {6, y}})}, 25), [&](Tip& t) {
+      open(t);
+      t.sound = t.length < 5;
+    });
+    run.to_the_end();
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+    const Vec2 end = run.end(0, true);
+    EXPECT_LT(end.x, 13);
+    EXPECT_TRUE(y < 8 ? end.y < 0 : end.y > 16) << end.y;
+  }
+}
+
 /// First positions of new points are those of the material there: a crack that grows straight in a turned plate was
 /// straight at first.
 TEST(GrowCracks, NewPointsKnowWhereTheyWereAtFirst) {
