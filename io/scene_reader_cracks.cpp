@@ -67,11 +67,9 @@ void read_cracks(const Table& root, Scene& s) {
   s.contact = read_contact(contact, s.contact);
   read_rules(contact, s.contact_rules);
   s.growth = read_growth(root);
-  const Table motion = root.table("cracks", {"motion", "surface_update", "draw_back"});
+  const Table motion = root.table("cracks", {"motion", "surface_update"});
   s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
   s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
-  if (motion.has("draw_back"))
-    s.draw_back = motion.number("draw_back", Range{0, 1});
   size_t entry = 0;
   for (const Table& t : root.tables(
            "crack", {"name", "points", "origin", "file", "resolution", "contact", "traction", "growth", "grows"})) {

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/laws/contact_node.hpp"
 #include "kernels/contact_meetings.hpp"
+#include "kernels/field_motion.hpp"
 
 namespace riven {
 
@@ -21,48 +22,6 @@ ContactReport& ContactReport::operator+=(const ContactReport& o) {
 }
 
 namespace {
-
-/// Motion of slots as each stage keeps it, in groups of four.
-template <class Real, ContactStage stage>
-struct Motion {
-  static constexpr bool momentum = stage == ContactStage::before || stage == ContactStage::again;
-  static constexpr bool acceleration = stage == ContactStage::after;
-
-  const Real* mass;
-  Real* data;
-
-  explicit Motion(Grid<Real>& grid) : mass(grid.mass.data()), data(grid.q.data()) {
-    if (stage == ContactStage::again)
-      data = grid.again.data();
-    if (stage == ContactStage::higher)
-      data = grid.high.data();
-  }
-  RIVEN_INLINE Vec2 momentum_of(long slot) const {
-    const Real* d = data + 4 * slot;
-    return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
-  }
-  /// Velocity before the forces and the impulses whose work is asked for: in the stage `after` those of the whole step.
-  RIVEN_INLINE Vec2 first_velocity(long slot, double dt) const {
-    const Real* d = data + 4 * slot;
-    if constexpr (acceleration)
-      return {d[0] - dt * d[2], d[1] - dt * d[3]};
-    return momentum_of(slot) * (1 / double(mass[slot]));
-  }
-  RIVEN_INLINE void change(long slot, Vec2 impulse, Vec2 velocity, double dt) const {
-    Real* d = data + 4 * slot;
-    if constexpr (momentum) {
-      d[0] = Real(d[0] + impulse.x);
-      d[1] = Real(d[1] + impulse.y);
-    } else {
-      if constexpr (acceleration) {
-        d[2] = Real(d[2] + (velocity.x - d[0]) / dt);
-        d[3] = Real(d[3] + (velocity.y - d[1]) / dt);
-      }
-      d[0] = Real(velocity.x);
-      d[1] = Real(velocity.y);
-    }
-  }
-};
 
 template <class Real>
 struct Detection {
@@ -112,7 +71,7 @@ RIVEN_INLINE Verdict judge(const Detection<Real>& found, const long* slot, const
 /// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
 /// search for a common solution.
 template <class Real, ContactStage stage>
-RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection<Real>& found, double dt,
+RIVEN_INLINE void one_contact(const FieldMotion<Real, stage>& motion, const Detection<Real>& found, double dt,
                               const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
                               ContactReport& report) {
   const long slot[2] = {n.node, long{lattice.nodes()} + n.extra};
@@ -170,7 +129,7 @@ RIVEN_INLINE void one_contact(const Motion<Real, stage>& motion, const Detection
 /// The contacts of a node with several meetings, from its slots to its slots.
 template <class Real, ContactStage stage>
 struct NodeContact {
-  const Motion<Real, stage>& motion;
+  const FieldMotion<Real, stage>& motion;
   const Detection<Real>& found;
   const double dt;
   const ContactArea* area = nullptr;
@@ -331,7 +290,7 @@ struct NodeContact {
 template <ContactStage stage, class Real>
 void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
          const Detection<Real>& found, double dt, ContactReport& report) {
-  const Motion<Real, stage> motion(grid);
+  const FieldMotion<Real, stage> motion(grid);
   const NodeCracks* nodes = fields.nodes.data();
   const std::uint8_t* held = fields.held.data();
   const ContactSettings* laws = cracks.contact.data();

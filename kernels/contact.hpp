@@ -33,15 +33,9 @@
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
 #include "kernels/contact_sums.hpp"
+#include "kernels/field_motion.hpp"
 
 namespace riven {
-
-enum class ContactStage {
-  before,  ///< Grid::q holds [px py . .]: p changes
-  after,   ///< Grid::q holds [vx vy ax ay]: v and a change
-  again,   ///< Grid::again holds [px py . .]: p changes
-  higher   ///< Grid::high holds [vx vy . .]: v changes
-};
 
 /// What contact did, summed over nodes in a fixed order.
 struct ContactReport {

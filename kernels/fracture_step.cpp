@@ -199,7 +199,26 @@ class JSearch {
   std::vector<Vec2> places_;  ///< [tips]
 };
 
+/// One stage; `reaches_particles` is the part of its change in energy that the particles take over.
+void bridge(Simulation& m, ContactStage stage, double reaches_particles) {
+  m.state.ledger.energy.contact -= reaches_particles * bridge_tips(m.state, m.bridges, stage);
+}
+
 }  // namespace
+
+void bridge_before_update(Simulation& m) {
+  list_bridges(m.space, m.state, m.bridges);
+  bridge(m, ContactStage::before, m.early_impulse());
+}
+void bridge_after_update(Simulation& m) {
+  bridge(m, ContactStage::after, 1);
+}
+void bridge_on_high(Simulation& m) {
+  bridge(m, ContactStage::higher, 1);
+}
+void bridge_after_extrapolation(Simulation& m) {
+  bridge(m, ContactStage::again, 0);
+}
 
 void find_j_and_k(Simulation& m) {
   const Clock& c = m.state.clock;

@@ -1,5 +1,6 @@
 // J and K at the tips of cracks, when they are due (Nairn and Aimene, section 2.2.2; Guo and Nairn).
 #pragma once
+#include "kernels/bridge_tips.hpp"
 #include "kernels/j_integral.hpp"
 
 namespace riven {
@@ -18,5 +19,11 @@ struct FractureReport {
 /// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth
 /// is about to be checked. Runs between the momentum update and the move, when Grid::q holds [vx vy ax ay].
 void find_j_and_k(Simulation&);
+
+/// Tips end their cracks between nodes (bridge_tips.hpp), at each stage at which contact acts, and after it.
+void bridge_before_update(Simulation&);
+void bridge_after_update(Simulation&);
+void bridge_on_high(Simulation&);
+void bridge_after_extrapolation(Simulation&);
 
 }  // namespace riven

@@ -8,6 +8,7 @@
 
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
+#include "core/fracture/crack_path.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/cells_around.hpp"
 
@@ -49,10 +50,13 @@ void each_place(Vec2 a, Vec2 b, Reach reach, const Lattice& lattice, const F& f)
 
 void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, Reach reach, Bins bins) {
   const long nodes = lattice.nodes(), segments = std::max(0, cracks.points() - 1);
-  const auto places_of = [&, crack = cracks.crack.data(), plane = cracks.plane.data()](long k, const auto& f) {
+  const auto places_of = [&, crack = cracks.crack.data()](long k, const auto& f) {
     if (crack[k] != crack[k + 1])
       return;
-    const Vec2 a = (plane[k] - lattice.origin) * (1 / lattice.h), b = (plane[k + 1] - lattice.origin) * (1 / lattice.h);
+    const auto at = [&](long point) {
+      return (seen_point(cracks, static_cast<int>(point), lattice.h) - lattice.origin) * (1 / lattice.h);
+    };
+    const Vec2 a = at(k), b = at(k + 1);
     each_place(a, b, reach, lattice, f);
   };
   bins.index.resize(nodes);
@@ -166,8 +170,9 @@ bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cr
   if (fields.cell_index.size() != lattice.nodes() || fields.hashed.size() != points)
     return true;
   const double limit = 0.99 * CrackFields::margin * lattice.h;  // less a little for rounding
-  const auto moved = [&, now = cracks.plane.data(), then = fields.hashed.data()](long k) {
-    return long{std::fabs(now[k].x - then[k].x) > limit || std::fabs(now[k].y - then[k].y) > limit};
+  const auto moved = [&, then = fields.hashed.data()](long k) {
+    const Vec2 now = seen_point(cracks, static_cast<int>(k), lattice.h);
+    return long{std::fabs(now.x - then[k].x) > limit || std::fabs(now.y - then[k].y) > limit};
   };
   return exec::parallel_reduce<long>(space, "hash cracks", points, moved) > 0;
 }
@@ -191,7 +196,9 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   fields.held.zero();
   fields.recount.resize(fields.nodes.size());
   fields.clearance.resize(fields.nodes.size());
-  fields.hashed = cracks.plane;
+  fields.hashed.resize(cracks.points());
+  for (int k = 0; k < cracks.points(); ++k)
+    fields.hashed[k] = seen_point(cracks, k, lattice.h);
   fields.order = -1;
 }
 

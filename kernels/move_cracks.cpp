@@ -104,8 +104,16 @@ void follow(const Moves& m, long other, long k, Moves& own, Cracks& cracks) {
   }
 }
 
+/// The faces are one at an open tip.
+void close_tip(Moves& m, long k, Cracks& cracks) {
+  m.upper = m.lower = m.plane;
+  if (!cracks.upper_velocity.empty())
+    cracks.upper_velocity[k] = cracks.lower_velocity[k] = 0.5 * (cracks.upper_velocity[k] + cracks.lower_velocity[k]);
+}
+
 /// Moves the points of one crack by what was found for them.
-void move_crack(const CrackRules& rules, double dt, long first, long last, Found* found, Cracks& cracks) {
+void move_crack(const CrackRules& rules, double dt, int crack, Found* found, Cracks& cracks) {
+  const long first = cracks.end_point(crack, false), last = cracks.end_point(crack, true) + 1;
   drop_light(found + first, found + last);
   std::vector<Moves> moves(static_cast<size_t>(last - first));
   for (long k = first; k < last; ++k)
@@ -117,6 +125,10 @@ void move_crack(const CrackRules& rules, double dt, long first, long last, Found
     const long other = nearest_known(moves, k - first);
     follow(moves[static_cast<size_t>(other)], first + other, k, own, cracks);
   }
+  if (cracks.is_open(crack, false))
+    close_tip(moves.front(), first, cracks);
+  if (cracks.is_open(crack, true))
+    close_tip(moves.back(), last - 1, cracks);
   for (long k = first; k < last; ++k) {
     const Moves& m = moves[static_cast<size_t>(k - first)];
     cracks.upper[k] += m.upper;
@@ -150,10 +162,8 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
         f.all = from.of_all_fields(cracks.plane[k]);
     }
   });
-  exec::parallel_tasks(space, "move cracks", cracks.count(), [&](long c) {
-    const int* start = cracks.start.data() + c;
-    move_crack(rules, dt, start[0], start[1], found.data(), cracks);
-  });
+  exec::parallel_tasks(space, "move cracks", cracks.count(),
+                       [&](long c) { move_crack(rules, dt, static_cast<int>(c), found.data(), cracks); });
   cracks.velocities_known = true;
 }
 

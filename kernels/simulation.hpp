@@ -45,6 +45,7 @@ class Simulation {
   ContactReport contact_before, contact_after, contact_again;
 
   FractureReport fracture;
+  std::vector<TipBridge> bridges;         ///< [tips]
   std::vector<PointForces> point_forces;  ///< of tractions on faces
 
   Vec2 gravity() const;         ///< body force per mass now, m/s^2

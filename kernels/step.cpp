@@ -90,6 +90,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
     prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
   add(p.contact, "contact before", "contact", contact_before_update);
+  add(p.fracture, "bridge tips before", "J", bridge_before_update);
   add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
   add(before, "stress before, forces", "",
       [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
@@ -99,6 +100,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.constraints, "boundary after", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after); });
   add(p.contact, "contact after", "contact", contact_after_update);
+  add(p.fracture, "bridge tips after", "J", bridge_after_update);
   add(p.fracture, "J and K", "J", find_j_and_k);
   add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields);
   add(p.particle_damping, "particle damping sums", "particle damping",
@@ -106,6 +108,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(p.higher_order() && p.order > 1, "higher orders", "higher orders",
       [](Simulation& m) { higher_orders(m.space, m.plan, m.state); });
   add(p.higher_order() && p.order > 1 && p.contact, "contact on higher orders", "higher orders", contact_on_high);
+  add(p.higher_order() && p.order > 1 && p.fracture, "bridge tips on higher orders", "higher orders", bridge_on_high);
   add(!again, "grid to particle", "",
       [before](Simulation& m) { grid_to_particle(m.space, m.plan, m.state, rule(m), !before); });
   add(again, "grid to particle, extrapolate again", "", [](Simulation& m) {
@@ -115,6 +118,7 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   add(again && p.constraints, "boundary again", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::again); });
   add(again && p.contact, "contact again", "contact", contact_after_extrapolation);
+  add(again && p.fracture, "bridge tips again", "J", bridge_after_extrapolation);
   add(again, "velocities again", "",
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });

@@ -2,9 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
-#include "core/fracture/crack_path.hpp"
+#include "core/fracture/crossing.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
@@ -19,11 +20,11 @@ struct SurfaceView {
   const int* cell_segment;
   const int* node_index;
   const NodeCracks* nodes;
-  const int* crack;      ///< [points]
-  const int* start;      ///< [cracks + 1]
-  const Vec2* plane;     ///< [points]
-  const Vec2* traced;    ///< [points] as paths see them
-  const PathEnds* ends;  ///< [cracks]
+  const int* crack;          ///< [points]
+  const int* start;          ///< [cracks + 1]
+  const Vec2* plane;         ///< [points]
+  const Vec2* traced;        ///< [points] as paths see them
+  const std::uint8_t* open;  ///< [2 cracks] 1 for tips
 };
 
 inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
@@ -37,7 +38,7 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
           cracks.start.data(),
           cracks.plane.data(),
           fields.traced.data(),
-          fields.path_ends.data()};
+          cracks.open.data()};
 }
 
 /// A crack's point and the crack around it.
@@ -52,16 +53,13 @@ struct CrackPoint {
 
 inline CrackPoint crack_point(const SurfaceView& view, int point) {
   const int crack = view.crack[point];
-  const PathEnds& ends = view.ends[crack];
-  const int first = ends.point[0], last = ends.point[1];
-  const bool ahead = (ends.open[0] && point <= first) || (ends.open[1] && point >= last);
-  const Vec2* at = ahead ? view.plane : view.traced;
-  const int low = ahead ? view.start[crack] : first, high = ahead ? view.start[crack + 1] - 1 : last;
-  const Vec2 x = at[point], along = at[std::min(point + 1, high)] - at[std::max(point - 1, low)];
+  const int first = view.start[crack], last = view.start[crack + 1] - 1;
+  const Vec2 x = view.plane[point];
+  const Vec2 along = view.traced[std::min(point + 1, last)] - view.traced[std::max(point - 1, first)];
   const double length = norm(along), h = view.lattice.h, reach = 1.6 * h;
   const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
-  if (ahead)  // of where paths see the crack end: no line along the point tells more than paths do
-    return {crack, x, turned(t), {}, true, std::numeric_limits<double>::infinity()};
+  if ((point == first && view.open[2 * crack]) || (point == last && view.open[2 * crack + 1]))
+    return {crack, x, turned(t), {}, true, std::numeric_limits<double>::infinity()};  // the line along it ends nearby
   CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, 0};
   double bend = 0, back = length > 0 ? 0 : -1;
   for (int step : {-1, 1}) {
@@ -75,7 +73,7 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
     }
     p.tip = p.tip || k < first || k > last;
   }
-  const double least = p.tip ? bend + end_zone * h : 0.02 * h;  // what lies ahead of a tip takes a closer look
+  const double least = p.tip ? bend + 0.1 * h : 0.02 * h;  // what lies ahead of a tip takes a closer look
   p.off = back >= 0 && bend < 0.25 * h ? std::max(least, std::min(0.3 * h, 4 * bend + 0.02 * h))
                                        : std::numeric_limits<double>::infinity();
   return p;
@@ -111,7 +109,7 @@ namespace detail {
 /// The side from which the line from `from` to n crosses the segments [at, end), all of one crack.
 inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, int at, int end) {
   const int crack = view.crack[view.cell_segment[at]];
-  const CrackPath path{view.traced, view.ends[crack], view.lattice.h};
+  const int first = view.start[crack], last = view.start[crack + 1] - 1;
   const double left = std::min(from.x, n.x), right = std::max(from.x, n.x);
   const double lower = std::min(from.y, n.y), upper = std::max(from.y, n.y);
   CrossingSum sum;
@@ -120,7 +118,7 @@ inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, in
     const Vec2 a = view.traced[k], b = view.traced[k + 1];
     const bool beside = (a.x < left && b.x < left) || (a.x > right && b.x > right);
     if (!beside && !((a.y < lower && b.y < lower) || (a.y > upper && b.y > upper)))
-      sum.add(path.crossed(from, n, k));
+      sum.add(crossing(from, n, view.traced + k, k == first, k + 1 == last));
   }
   return sum.side();
 }

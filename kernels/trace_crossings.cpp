@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/exec/parallel.hpp"
+#include "core/fracture/crack_path.hpp"
 #include "kernels/cells_around.hpp"
 #include "kernels/tracer.hpp"
 
@@ -22,9 +23,8 @@ void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, Cr
   fields.tiles.resize(fields.marked_tiles.size());
   fields.crack_move.resize(cracks.count());
   fields.traced.resize(cracks.points());
-  fields.path_ends.resize(cracks.count());
-  for (int c = 0; c < cracks.count(); ++c)
-    fields.path_ends[c] = see_crack(cracks, c, lattice.h, fields.traced.data());
+  for (int k = 0; k < cracks.points(); ++k)
+    fields.traced[k] = seen_point(cracks, k, lattice.h);
   fields.fields.resize(particles);
   fields.crossing.resize(fields.block_limit.size());
   fields.block_slots.resize(fields.block_limit.size());
@@ -44,15 +44,12 @@ void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, Cr
 
 /// Moves of the cracks since the last trace.
 void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
-  fields.traced.swap(fields.traced_before);
-  fields.traced.resize(cracks.points());
   exec::launch(space, cracks.count(), [&](long c) {
-    const PathEnds ends = see_crack(cracks, static_cast<int>(c), lattice.h, fields.traced.data());
-    double most2 = ends == fields.path_ends[c] ? 0 : lattice.h * lattice.h;  // more than any path is clear by
-    fields.path_ends[c] = ends;
+    double most2 = 0;
     for (int k = cracks.start[static_cast<size_t>(c)]; k < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
-      const Vec2 move = fields.traced[k] - fields.traced_before[k];
+      const Vec2 now = seen_point(cracks, k, lattice.h), move = now - fields.traced[k];
       most2 = std::max(most2, dot(move, move));
+      fields.traced[k] = now;
     }
     fields.crack_move[c] = std::sqrt(most2);
   });
@@ -65,30 +62,18 @@ void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks
 /// Nearer than this (in cells) to a segment, nodes are followed by their sides.
 constexpr double near_cells = 0.02;
 
-/// How far a node is from the edges of the zones of the open tips at which a segment ends.
-double zone_clearance(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, Vec2 x, int segment) {
-  const PathEnds& ends = fields.path_ends[cracks.crack[segment]];
-  double least = std::numeric_limits<double>::max();
-  if (ends.open[0] && segment <= ends.zone[0])
-    least = std::fabs(to_end_zone(x, fields.traced[ends.point[0]], lattice.h));
-  if (ends.open[1] && segment + 1 >= ends.zone[1])
-    least = std::min(least, std::fabs(to_end_zone(x, fields.traced[ends.point[1]], lattice.h)));
-  return least;
-}
-
-/// Distance of a node from its segments and from the zones of their tips, and which segments it is next to. Next to any
-/// but one or two joined ones it is not followed.
+/// Distance of a node from its segments, and which of them it is next to. Next to any but one or two joined ones it is
+/// not followed.
 void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields, long f, NodeClearance& c) {
   const Vec2 x = lattice.position(fields.nodes[f].node);
   const double near2 = near_cells * near_cells * lattice.h * lattice.h;
-  double least2 = std::numeric_limits<double>::max(), others2 = least2, zones = least2;
+  double least2 = std::numeric_limits<double>::max(), others2 = least2;
   int count = 0, segment[2] = {-1, -1};
   const int end = fields.segment_start[fields.candidate_start[f + 1]];
   for (int s = fields.segment_start[fields.candidate_start[f]]; s < end; ++s) {
     const int k = fields.node_segment[s];
     const double d2 = distance2(x, fields.traced[k], fields.traced[k + 1]);
     least2 = std::min(least2, d2);
-    zones = std::min(zones, zone_clearance(lattice, cracks, fields, x, k));
     if (d2 >= near2)
       others2 = std::min(others2, d2);
     else if (count++ < 2)
@@ -97,7 +82,7 @@ void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackField
   const bool joined =
       count == 2 && segment[1] == segment[0] + 1 && cracks.crack[segment[0]] == cracks.crack[segment[1]];
   const bool followed = count == 1 || joined;
-  c.measured = std::min(zones, std::sqrt(followed ? others2 : least2));
+  c.measured = std::sqrt(followed ? others2 : least2);
   c.travel = fields.travel;
   c.near = followed ? segment[0] : -1;
   c.joined = joined;

@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "core/fracture/crack_path.hpp"
+#include "core/fracture/crossing.hpp"
 #include "core/math/shape.hpp"
 #include "core/state/bodies.hpp"
 #include "core/state/cracks.hpp"
@@ -198,9 +198,11 @@ class Tracer {
   }
 
   void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits, CrossingSum& sum) {
-    const CrackPath path{fields_.traced.data(), fields_.path_ends[crack], in_.lattice.h};
-    for (; bits; bits &= bits - 1)
-      sum.add(path.crossed(paths.particle, node(paths, k), list.segment[std::countr_zero(bits)]));
+    const int first = in_.cracks.end_point(crack, false), last = in_.cracks.end_point(crack, true);
+    for (; bits; bits &= bits - 1) {
+      const int s = list.segment[std::countr_zero(bits)];
+      sum.add(crossing(paths.particle, node(paths, k), fields_.traced.data() + s, s == first, s + 1 == last));
+    }
   }
 
   void record(const Paths<Shape>& paths, int crack, int k, bool below) {
@@ -248,29 +250,16 @@ class Tracer {
 
   /// Takes the distances of the particle from the segments of one crack, and of the crack's tips from all paths.
   void take_crack_clearance(const Paths<Shape>& paths, int crack, SegmentList list) {
-    const PathEnds& ends = fields_.path_ends[crack];
+    const int first = in_.cracks.end_point(crack, false), last = in_.cracks.end_point(crack, true);
     const Vec2* point = fields_.traced.data();
     for (int s = 0; s < list.count; ++s) {
       const int a = list.segment[s];
       clear2_ = std::min(clear2_, distance2(paths.particle, point[a], point[a + 1]));
-      if (a == ends.point[0])
-        take_end_clearance(paths, ends, 0);
-      if (a + 1 == ends.point[1])
-        take_end_clearance(paths, ends, 1);
+      if (a == first)
+        paths.take_distance2(point[a], inv_h_, path_clear2_);
+      if (a + 1 == last)
+        paths.take_distance2(point[a + 1], inv_h_, path_clear2_);
     }
-  }
-
-  /// Takes the distance of a crack's end from all paths, and from those that end ahead of an open one that of the joint
-  /// up to which they do not cross it.
-  void take_end_clearance(const Paths<Shape>& paths, const PathEnds& ends, int last) {
-    const Vec2 end = fields_.traced[ends.point[last]];
-    paths.take_distance2(end, inv_h_, path_clear2_);
-    const int joint = ends.zone[last] + (last ? -1 : 1);
-    if (!ends.open[last] || joint < ends.point[0] || joint > ends.point[1])
-      return;
-    for (int k = 0; k < nodes; ++k)
-      if (const Vec2 n = node(paths, k); to_end_zone(n, end, in_.lattice.h) < 0)
-        clear2_ = std::min(clear2_, distance2(fields_.traced[joint], paths.particle, n));
   }
 
   /// The least distance taken from the paths, below the true one by more than single precision may be off.

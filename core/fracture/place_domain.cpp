@@ -13,9 +13,9 @@ double reach_before(double distance, double h) {
   return distance >= 4 * h ? distance - 2 * h : distance / 2;
 }
 
-/// Would q, with edges `reach` away, be more than 0 at an offset r?
+/// Would q, with edges `reach` away, be more than 0 within half a cell of an offset r, where a tip there acts?
 bool inside(Vec2 r, const double reach[4], double h) {
-  const auto within = [&](double along, int edge) { return along < reach[edge] + std::min(h, reach[edge]); };
+  const auto within = [&](double along, int edge) { return along < reach[edge] + std::min(h, reach[edge]) + 0.5 * h; };
   return within(r.x, right) && within(r.y, top) && within(-r.x, left) && within(-r.y, bottom);
 }
 

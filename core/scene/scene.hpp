@@ -235,7 +235,6 @@ struct Scene {
   ContactRules contact_rules;
   CrackMotion crack_motion = CrackMotion::surfaces;
   SurfaceUpdate surface_update = SurfaceUpdate::xpic;
-  std::optional<double> draw_back;  ///< cells by which paths see tips drawn back (crack_path.hpp)
   FractureRules fracture;
   std::optional<GrowthRule> growth;  ///< of all cracks that do not say otherwise
 

@@ -75,14 +75,6 @@ struct TileTrace {
   int warnings[2] = {0, 0};
 };
 
-/// The points of a crack at which paths see it end (crack_path.hpp). Points beyond are seen in the same place.
-struct PathEnds {
-  int point[2];  ///< towards the first and the last point of the crack
-  int zone[2];   ///< the points furthest from these within their zones
-  bool open[2];  ///< these are tips
-  bool operator==(const PathEnds&) const = default;
-};
-
 struct CrackFields {
   static constexpr int bits = 2;          ///< of a field number
   static_assert(exec::lanes <= 16);       // bits in `crossing`
@@ -108,13 +100,11 @@ struct CrackFields {
   exec::Array<int> node_segment;     ///< first points of these, ascending
   exec::Array<int> extra;            ///< [nodes] see grid.hpp
   int extra_slots = 0;
-  exec::Array<Vec2> hashed;  ///< [points] crack points when the hash was made
+  exec::Array<Vec2> hashed;  ///< [points] crack points as paths saw them when the hash was made
 
   // trace: crossings, and their sums for each node. They are kept from step to step and changed where a particle's
   // crossings change. Sums are of integers, so that they do not depend on the order of the particles.
   exec::Array<Vec2> traced;         ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
-  exec::Array<Vec2> traced_before;  ///< [points] the same at the trace before
-  exec::Array<PathEnds> path_ends;  ///< [cracks] at the last trace
   exec::Array<double> crack_move;   ///< [cracks] m, largest move of its points since the trace before
   double travel = 0;                ///< m, sum over the steps of the largest of these
   exec::Array<NodeClearance> clearance;  ///< [flagged]

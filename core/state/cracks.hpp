@@ -43,7 +43,6 @@ struct Cracks {
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
   std::vector<Junction> junctions;
-  double draw_back = 0;            ///< cells by which paths see open tips drawn back (crack_path.hpp)
   exec::Array<std::uint8_t> open;  ///< [2 cracks] first and last ends: 1 for tips seen so (crack_path.hpp)
 
   // tractions on faces; see tractions.hpp

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/fracture/crack_path.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "core/state/tractions.hpp"
@@ -122,11 +121,9 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     for (const Body& b : scene.bodies)
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
-    if ((plan.fracture && !plan.growth) || scene.draw_back) {
-      s.cracks.draw_back = scene.draw_back.value_or(own_length);
+    if (plan.fracture)
       for (const Tip& t : make_tips(scene))
         s.cracks.set_open(t.crack, t.last, true);
-    }
     if (plan.tractions)
       lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
@@ -184,7 +181,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   });
   if (points.items > 0)
     list.push_back(points);
-  add("cracks: motion", f.hashed, f.traced, f.traced_before, f.path_ends, f.crack_move);
+  add("cracks: motion", f.hashed, f.traced, f.crack_move);
   add("cracks: crossings", f.records, f.limit, f.block_limit, f.tiles);
   add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
       f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.held, f.candidate_start,

@@ -232,7 +232,6 @@ TEST(BadSceneParts, EachIsRefused) {
       {"[[probe]]\nkind = \"stress\"\npoint = [\"3 mm\", \"0 mm\"]\naxis = \"x\"\n", "has no axis", ""},
       {"[output]\nfields = [\"fringes\"]\n", "unknown field 'fringes'", "'fringe'"},
       {"[output]\nfields = [\"fringe\"]\n", "needs its constant", "fringe_constant"},
-      {"[cracks]\ndraw_back = 1.5\n", "out of range", "at most 1"},
       {"[contact]\nv_sep = 1.2\n", "apart and in contact", "at most v_contact"},
       {"[[crack]]\npoints = [[\"9 mm\", \"9 mm\"], [\"19 mm\", \"9 mm\"]]\n[crack.traction]\nkind = \"exponential\"\n"
        "strength = \"1 MPa\"\ntoughness = \"1 N/mm\"\n[cracks]\nsurface_update = \"flip\"\n",

@@ -88,7 +88,6 @@ v_sep = 0.8
 [cracks]
 motion = "center_of_mass"
 surface_update = "pic"
-draw_back = 0.2
 [[crack]]
 name = "cohesive"
 points = [["10 mm", "10 mm"], ["20 mm", "20 mm"]]
@@ -174,7 +173,6 @@ energy_growth = 0.1
   EXPECT_DOUBLE_EQ(s.contact_rules.v_contact, 1.1);
   EXPECT_EQ(s.crack_motion, CrackMotion::center_of_mass);
   EXPECT_EQ(s.surface_update, SurfaceUpdate::pic);
-  EXPECT_EQ(s.draw_back, 0.2);
   ASSERT_EQ(s.probes.size(), 3u);
   EXPECT_EQ(s.probes[0].target, "edge");
   EXPECT_EQ(s.probes[1].axis, 0);

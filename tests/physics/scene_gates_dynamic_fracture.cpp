@@ -142,7 +142,7 @@ TEST(SentDynamic, HardlyDependsOnTheCell) {
     peak = std::max(peak, fine.mean(t, 0.2 * us));
   report("SENT dynamic, peak of K_I over sigma sqrt(pi a)", peak / (400e6 * std::sqrt(std::numbers::pi * 5e-3)),
          "none");
-  double rms[3];
+  double rms[3], largest[3];
   const char* cells[3] = {"0.5 mm", "1 mm", "2 mm"};
   for (int k = 0; k < 3; ++k) {
     const Curve found = K(cells[k]);
@@ -153,18 +153,19 @@ TEST(SentDynamic, HardlyDependsOnTheCell) {
       own = std::max(own, found.mean(t, 0.2 * us));
     }
     rms[k] = d.rms() / peak;
+    largest[k] = d.most / peak;
     report(fmt::format("SENT dynamic, {} cells against 0.25 mm, peak", cells[k]), own / peak - 1,
            k < 2 ? "0.04" : "none");
-    report(fmt::format("SENT dynamic, {} cells, largest, at {:.2f} us", cells[k], d.at / us), d.most / peak, "none");
-    report(fmt::format("SENT dynamic, {} cells, rms", cells[k]), rms[k],
-           k < 2 ? "0.04" : "more than 0.05: visibly off");
+    report(fmt::format("SENT dynamic, {} cells, largest, at {:.2f} us", cells[k], d.at / us), largest[k],
+           k < 2 ? "none" : "more than 0.1: visibly off");
+    report(fmt::format("SENT dynamic, {} cells, rms", cells[k]), rms[k], k < 2 ? "0.04" : "none");
     if (k < 2) {
       EXPECT_NEAR(own, peak, 0.04 * peak) << cells[k];
     }
   }
   EXPECT_LT(rms[0], 0.04);
   EXPECT_LT(rms[1], 0.04);
-  EXPECT_GT(rms[2], 0.05);
+  EXPECT_GT(largest[2], 0.1);
 }
 
 }  // namespace

@@ -1,0 +1,149 @@
+#include "kernels/bridge_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/exec/parallel.hpp"
+#include "core/fracture/crack_path.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Cells ahead of its tip at which a crack begins to part nodes.
+constexpr double front = seen_ahead;
+/// What a node a cell behind that parts by, over those behind it, when nothing holds it.
+constexpr double free_share = 0.66;
+/// Cells from the crack's line within which its particles and nodes see each other across it.
+constexpr double beside = 1.5;
+
+double share_at(double s) {
+  return free_share * (1 - std::sqrt(std::max(0.0, 1 - std::max(0.0, front - s))));
+}
+
+template <class Real>
+TipBridge find_bridge(const State<Real, 2>& state, const Tip& tip) {
+  const CrackFields& fields = state.fields;
+  const Cracks& cracks = state.cracks;
+  const Lattice& l = state.grid.lattice;
+  TipBridge bridge;
+  const Vec2 end = cracks.plane[cracks.end_point(tip.crack, tip.last)];
+  const Vec2 along = end - cracks.plane[cracks.next_to_end(tip.crack, tip.last)];
+  const Vec2 t = along * (1 / norm(along)), c = (end - l.origin) * (1 / l.h);
+  const int i0 = static_cast<int>(std::floor(c.x)), j0 = static_cast<int>(std::floor(c.y));
+  for (int j = std::max(0, j0 - 2); j <= std::min(l.ny - 1, j0 + 3); ++j)
+    for (int i = std::max(0, i0 - 2); i <= std::min(l.nx - 1, i0 + 3); ++i) {
+      const int node = j * l.nx + i, at = fields.node_index[node];
+      if (at < 0 || fields.held[at] == 0)
+        continue;
+      const Vec2 r{i - c.x, j - c.y};
+      const double s = dot(r, t);
+      if (s <= front - 2 || std::fabs(cross(r, t)) > beside)
+        continue;
+      const NodeCracks& n = fields.nodes[at];
+      const int m = n.crack[1] == tip.crack;
+      if (n.crack[m] != tip.crack)
+        continue;
+      const auto slot = [&](int field) { return field == 0 ? long{node} : long{l.nodes()} + n.extra + field - 1; };
+      // on either side of another crack that the node holds
+      for (const int beyond : {0, n.crack[1 - m] < 0 ? 0 : 2 >> m}) {
+        const long near = slot(beyond), across = slot(beyond | 1 << m);
+        if (!(state.grid.mass[near] > 0) || !(state.grid.mass[across] > 0))
+          continue;
+        const bool near_above = n.side[m] == Side::below;
+        const double share = s > front - 1 ? share_at(s) : -1;
+        if (bridge.count < TipBridge::most)
+          bridge.pair[bridge.count++] = {near_above ? near : across, near_above ? across : near, share};
+        if (n.crack[1 - m] < 0)
+          break;
+      }
+    }
+  return bridge;
+}
+
+/// Brings the jumps around one tip to what the bridge asks for.
+template <class Real, ContactStage stage>
+class Bridging {
+ public:
+  explicit Bridging(State<Real, 2>& s) : motion_(s.grid), dt_(s.clock.dt) {}
+
+  double across(const TipBridge& bridge) {
+    Vec2 behind, sum;
+    double mass = 0, all = 0;
+    for (int k = 0; k < bridge.count; ++k) {
+      const BridgedPair& p = bridge.pair[k];
+      const double ma = motion_.mass[p.above], mb = motion_.mass[p.below];
+      const double reduced = ma * mb / (ma + mb);
+      const Vec2 jump = motion_.momentum_of(p.above) * (1 / ma) - motion_.momentum_of(p.below) * (1 / mb);
+      jump_[k] = jump;
+      reduced_[k] = reduced;
+      if (p.share < 0) {
+        behind += reduced * jump;
+        mass += reduced;
+      } else {
+        sum += (p.share * reduced) * jump;
+        all += p.share * p.share * reduced;
+      }
+    }
+    if (!(mass > 0))
+      return 0;
+    const Vec2 W = (behind + sum) * (1 / (mass + all)), shift = W - behind * (1 / mass);
+    double work = 0;
+    for (int k = 0; k < bridge.count; ++k) {
+      const BridgedPair& p = bridge.pair[k];
+      const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : p.share * W - jump_[k]);
+      work += push(p.above, impulse) + push(p.below, -impulse);
+    }
+    return work;
+  }
+
+ private:
+  double push(long slot, Vec2 impulse) {
+    const Vec2 velocity = (motion_.momentum_of(slot) + impulse) * (1 / double(motion_.mass[slot]));
+    const double work = 0.5 * dot(impulse, motion_.first_velocity(slot, dt_) + velocity);
+    motion_.change(slot, impulse, velocity, dt_);
+    return work;
+  }
+
+  FieldMotion<Real, stage> motion_;
+  double dt_;
+  Vec2 jump_[TipBridge::most];
+  double reduced_[TipBridge::most];
+};
+
+template <ContactStage stage, class Real>
+double run(State<Real, 2>& s, const std::vector<TipBridge>& bridges) {
+  Bridging<Real, stage> bridging(s);
+  double work = 0;
+  for (const TipBridge& bridge : bridges)
+    work += bridging.across(bridge);
+  return work;
+}
+
+}  // namespace
+
+template <class Real>
+void list_bridges(const exec::Space& space, const State<Real, 2>& s, std::vector<TipBridge>& bridges) {
+  bridges.assign(s.tips.size(), {});
+  exec::parallel_tasks(space, "bridge tips", static_cast<long>(s.tips.size()), [&](long k) {
+    const Tip& tip = s.tips[static_cast<size_t>(k)];
+    if (tip.open)
+      bridges[static_cast<size_t>(k)] = find_bridge(s, tip);
+  });
+}
+
+template <class Real>
+double bridge_tips(State<Real, 2>& s, const std::vector<TipBridge>& bridges, ContactStage stage) {
+  switch (stage) {
+    case ContactStage::before: return run<ContactStage::before>(s, bridges);
+    case ContactStage::after: return run<ContactStage::after>(s, bridges);
+    case ContactStage::again: return run<ContactStage::again>(s, bridges);
+    case ContactStage::higher: return run<ContactStage::higher>(s, bridges);
+  }
+  return 0;
+}
+
+template void list_bridges(const exec::Space&, const State<double, 2>&, std::vector<TipBridge>&);
+template double bridge_tips(State<double, 2>&, const std::vector<TipBridge>&, ContactStage);
+
+}  // namespace riven

@@ -1,0 +1,57 @@
+// The motion of a node's velocity fields, which impulses between them change at several stages of the step.
+#pragma once
+#include "core/math/vec.hpp"
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+enum class ContactStage {
+  before,  ///< Grid::q holds [px py . .]: p changes
+  after,   ///< Grid::q holds [vx vy ax ay]: v and a change
+  again,   ///< Grid::again holds [px py . .]: p changes
+  higher   ///< Grid::high holds [vx vy . .]: v changes
+};
+
+/// The motion as each stage keeps it, in groups of four numbers.
+template <class Real, ContactStage stage>
+struct FieldMotion {
+  static constexpr bool momentum = stage == ContactStage::before || stage == ContactStage::again;
+  static constexpr bool acceleration = stage == ContactStage::after;
+
+  const Real* mass;
+  Real* data;
+
+  explicit FieldMotion(Grid<Real>& grid) : mass(grid.mass.data()), data(grid.q.data()) {
+    if (stage == ContactStage::again)
+      data = grid.again.data();
+    if (stage == ContactStage::higher)
+      data = grid.high.data();
+  }
+  RIVEN_INLINE Vec2 momentum_of(long slot) const {
+    const Real* d = data + 4 * slot;
+    return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
+  }
+  /// Velocity before the forces and the impulses whose work is asked for: in the stage `after` those of the whole step.
+  RIVEN_INLINE Vec2 first_velocity(long slot, double dt) const {
+    const Real* d = data + 4 * slot;
+    if constexpr (acceleration)
+      return {d[0] - dt * d[2], d[1] - dt * d[3]};
+    return momentum_of(slot) * (1 / double(mass[slot]));
+  }
+  RIVEN_INLINE void change(long slot, Vec2 impulse, Vec2 velocity, double dt) const {
+    Real* d = data + 4 * slot;
+    if constexpr (momentum) {
+      d[0] = Real(d[0] + impulse.x);
+      d[1] = Real(d[1] + impulse.y);
+    } else {
+      if constexpr (acceleration) {
+        d[2] = Real(d[2] + (velocity.x - d[0]) / dt);
+        d[3] = Real(d[3] + (velocity.y - d[1]) / dt);
+      }
+      d[0] = Real(velocity.x);
+      d[1] = Real(velocity.y);
+    }
+  }
+};
+
+}  // namespace riven

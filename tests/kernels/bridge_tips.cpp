@@ -1,0 +1,118 @@
+// What bridging a tip does to the velocities of the nodes around it.
+#include "kernels/bridge_tips.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernels/crack_step.hpp"
+#include "kernels/particle_to_grid.hpp"
+#include "tests/physics/scenes.hpp"
+
+namespace riven {
+namespace {
+
+/// A square with a crack that ends in it, its particles with velocities of no order, and the momenta of its nodes.
+struct Square {
+  explicit Square(Vec2 tip, double angle, std::vector<CrackLine> others = {}) : scene(make(tip, angle, others)) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> velocity(-1, 1);
+    auto& p = m.state.particles;
+    for (long i = 0; i < p.count(); ++i)
+      for (int axis : {0, 1})
+        p.v[axis][i] = velocity(random);
+    hash_if_due(m);
+    find_fields(m);
+    clear_grid(m.space, m.state);
+    particle_to_grid(m.space, m.plan, m.state, true, {});
+    list_bridges(space, m.state, bridges);
+  }
+  static Scene make(Vec2 tip, double angle, const std::vector<CrackLine>& others) {
+    Scene s = test::empty_scene(1, {{-10, -10}, {10, 10}});
+    s.bodies = {test::body("square", Rectangle{{-8, -8}, {8, 8}})};
+    s.cracks = {test::crack("target", {tip - 20 * Vec2{std::cos(angle), std::sin(angle)}, tip})};
+    s.cracks.insert(s.cracks.end(), others.begin(), others.end());
+    s.fracture.asked = true;
+    return s;
+  }
+  Vec2 momentum(long slot) const { return {m.state.grid.q[4 * slot], m.state.grid.q[4 * slot + 1]}; }
+  Vec2 velocity(long slot) const { return momentum(slot) * (1 / m.state.grid.mass[slot]); }
+  Vec2 jump(const BridgedPair& p) const { return velocity(p.above) - velocity(p.below); }
+  double energy() const {
+    double sum = 0;
+    for (long n = 0; n < m.state.grid.slots(); ++n)
+      if (m.state.grid.mass[n] > 0)
+        sum += 0.5 * dot(momentum(n), velocity(n));
+    return sum;
+  }
+
+  const exec::Space space{exec::Kind::serial, 1};
+  Scene scene;
+  Simulation m{scene, space};
+  std::vector<TipBridge> bridges;
+};
+
+constexpr Vec2 places[] = {{0, 0}, {0.1, 0}, {0.5, 0}, {0.9, 0}, {0.3, 0.5}, {-0.2, 0.27}};
+
+TEST(BridgeTips, LetNodesPartByAShareOfThoseBehind) {
+  for (const Vec2 tip : places)
+    for (const double angle : {0., 0.4, 2.5}) {
+      Square s(tip, angle);
+      ASSERT_EQ(s.bridges.size(), 1u);
+      const TipBridge& bridge = s.bridges[0];
+      bridge_tips(s.m.state, s.bridges, ContactStage::before);
+      Vec2 behind;
+      double mass = 0;
+      int shares = 0;
+      for (int k = 0; k < bridge.count; ++k) {
+        const BridgedPair& p = bridge.pair[k];
+        const double a = s.m.state.grid.mass[p.above], b = s.m.state.grid.mass[p.below], reduced = a * b / (a + b);
+        shares += p.share >= 0;
+        if (p.share < 0) {
+          behind += reduced * s.jump(p);
+          mass += reduced;
+        }
+      }
+      ASSERT_GT(mass, 0);
+      ASSERT_GT(shares, 0);
+      for (int k = 0; k < bridge.count; ++k) {
+        const BridgedPair& p = bridge.pair[k];
+        if (p.share >= 0) {
+          EXPECT_LT(norm(s.jump(p) - (p.share / mass) * behind), 1e-12);
+          EXPECT_LT(p.share, 0.7);
+        }
+      }
+    }
+}
+
+TEST(BridgeTips, KeepMomentumAndLoseEnergyOnce) {
+  for (const Vec2 tip : places)
+    for (const double angle : {0., 0.4, 2.5}) {
+      Square s(tip, angle);
+      const Square before(tip, angle);
+      const double work = bridge_tips(s.m.state, s.bridges, ContactStage::before);
+      for (int k = 0; k < s.bridges[0].count; ++k) {
+        const BridgedPair& p = s.bridges[0].pair[k];
+        const Vec2 was = before.momentum(p.above) + before.momentum(p.below);
+        EXPECT_LT(norm(s.momentum(p.above) + s.momentum(p.below) - was), 1e-12 * norm(was) + 1e-15);
+      }
+      EXPECT_LT(work, 0);
+      EXPECT_NEAR(s.energy() - before.energy(), work, 1e-12 * before.energy());
+      EXPECT_NEAR(bridge_tips(s.m.state, s.bridges, ContactStage::before), 0, 1e-14 * before.energy());
+    }
+}
+
+/// On the far side of another crack, too, the faces part as those on this side do.
+TEST(BridgeTips, SeeBothSidesOfAnotherCrack) {
+  Square alone({0.3, 0.1}, 0), crossed({0.3, 0.1}, 0, {test::crack("across", {{-1.3, -9}, {-1.3, 9}})});
+  EXPECT_GT(crossed.bridges[0].count, alone.bridges[0].count);
+}
+
+TEST(BridgeTips, LeaveEndsOutsideOfSolidsAlone) {
+  const Square s({12, 0.1}, 0);
+  EXPECT_TRUE(s.bridges.empty() || s.bridges[0].count == 0);
+}
+
+}  // namespace
+}  // namespace riven
