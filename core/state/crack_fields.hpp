@@ -104,9 +104,9 @@ struct CrackFields {
 
   // trace: crossings, and their sums for each node. They are kept from step to step and changed where a particle's
   // crossings change. Sums are of integers, so that they do not depend on the order of the particles.
-  exec::Array<Vec2> traced;         ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
-  exec::Array<double> crack_move;   ///< [cracks] m, largest move of its points since the trace before
-  double travel = 0;                ///< m, sum over the steps of the largest of these
+  exec::Array<Vec2> traced;        ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
+  exec::Array<double> crack_move;  ///< [cracks] m, largest move of its points since the trace before
+  double travel = 0;               ///< m, sum over the steps of the largest of these
   exec::Array<NodeClearance> clearance;  ///< [flagged]
   int traces = 0;                        ///< so far
   exec::Array<int> turned;               ///< [nodes] the last trace before which a node of this cell changed sides
