@@ -53,7 +53,7 @@ TipBridge find_bridge(const State<Real, 2>& state, const Tip& tip) {
         const bool near_above = n.side[m] == Side::below;
         const double share = s > front - 1 ? share_at(s) : -1;
         if (bridge.count < TipBridge::most)
-          bridge.pair[bridge.count++] = {near_above ? near : across, near_above ? across : near, share};
+          bridge.pair[bridge.count++] = {node, near_above ? near : across, near_above ? across : near, share};
         if (n.crack[1 - m] < 0)
           break;
       }
@@ -67,7 +67,7 @@ class Bridging {
  public:
   explicit Bridging(State<Real, 2>& s) : motion_(s.grid), dt_(s.clock.dt) {}
 
-  double across(const TipBridge& bridge) {
+  double across(TipBridge& bridge) {
     Vec2 behind, sum;
     double mass = 0, all = 0;
     for (int k = 0; k < bridge.count; ++k) {
@@ -90,8 +90,10 @@ class Bridging {
     const Vec2 W = (behind + sum) * (1 / (mass + all)), shift = W - behind * (1 / mass);
     double work = 0;
     for (int k = 0; k < bridge.count; ++k) {
-      const BridgedPair& p = bridge.pair[k];
+      BridgedPair& p = bridge.pair[k];
       const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : p.share * W - jump_[k]);
+      if constexpr (stage == ContactStage::after)
+        p.force = impulse * (1 / dt_);
       work += push(p.above, impulse) + push(p.below, -impulse);
     }
     return work;
@@ -112,10 +114,10 @@ class Bridging {
 };
 
 template <ContactStage stage, class Real>
-double run(State<Real, 2>& s, const std::vector<TipBridge>& bridges) {
+double run(State<Real, 2>& s, std::vector<TipBridge>& bridges) {
   Bridging<Real, stage> bridging(s);
   double work = 0;
-  for (const TipBridge& bridge : bridges)
+  for (TipBridge& bridge : bridges)
     work += bridging.across(bridge);
   return work;
 }
@@ -133,7 +135,7 @@ void list_bridges(const exec::Space& space, const State<Real, 2>& s, std::vector
 }
 
 template <class Real>
-double bridge_tips(State<Real, 2>& s, const std::vector<TipBridge>& bridges, ContactStage stage) {
+double bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactStage stage) {
   switch (stage) {
     case ContactStage::before: return run<ContactStage::before>(s, bridges);
     case ContactStage::after: return run<ContactStage::after>(s, bridges);
@@ -144,6 +146,6 @@ double bridge_tips(State<Real, 2>& s, const std::vector<TipBridge>& bridges, Con
 }
 
 template void list_bridges(const exec::Space&, const State<double, 2>&, std::vector<TipBridge>&);
-template double bridge_tips(State<double, 2>&, const std::vector<TipBridge>&, ContactStage);
+template double bridge_tips(State<double, 2>&, std::vector<TipBridge>&, ContactStage);
 
 }  // namespace riven

@@ -30,8 +30,10 @@ namespace riven {
 
 /// Two velocity fields of a node on either side of a tip's crack.
 struct BridgedPair {
+  int node;
   long above, below;  ///< slots
   double share;       ///< lambda, or -1 for a node behind
+  Vec2 force{};       ///< N, on the field above, in the momentum update
 };
 
 /// Those around one tip.
@@ -47,6 +49,6 @@ void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBrid
 
 /// Changes their motion, one tip after the other. Returns the work done on the fields, J (negative: lost).
 template <class Real>
-double bridge_tips(State<Real, 2>&, const std::vector<TipBridge>&, ContactStage);
+double bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage);
 
 }  // namespace riven

@@ -8,6 +8,7 @@
 #include "core/fracture/opening.hpp"
 #include "core/fracture/place_domain.hpp"
 #include "core/scene/schedule.hpp"
+#include "kernels/bridge_integral.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
@@ -57,6 +58,8 @@ class JSearch {
       for (Due& d : due)
         tasks.push_back(place(d));
       sum_around_tips(m_.space, m_.plan, s_, tasks);
+      for (TipTask& task : tasks)
+        add_bridges(s_, m_.bridges, task);
       std::vector<Due> again;
       for (size_t k = 0; k < due.size(); ++k)
         if (draw_in(due[k], tasks[k]))

@@ -14,8 +14,9 @@ struct PlacedDomain {
 };
 
 /// A rectangle about `tip` whose edges are `most` (m) away at the outside, with each edge moved in as far as needed for
-/// q to be 0 at all `others` (other tips), where that can be. Of the edges that leave a tip out the one is moved that
-/// moves least; wherever there is room it stays two cells away from either tip. `h`: the cell.
+/// q to be 0 at all `others` (other tips), and half a cell ahead of them, where that can be. Of the edges that leave a
+/// tip out the one is moved that moves least; wherever there is room it stays two cells away from either tip. `h`: the
+/// cell.
 PlacedDomain place_domain(Vec2 tip, const double most[4], double h, const std::vector<Vec2>& others);
 
 /// The rectangle alone: edges `reach` away.
