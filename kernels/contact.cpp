@@ -289,7 +289,7 @@ struct NodeContact {
 
 template <ContactStage stage, class Real>
 void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-         const Detection<Real>& found, double dt, ContactReport& report) {
+         const Detection<Real>& found, double dt, std::uint8_t* touched, ContactReport& report) {
   const FieldMotion<Real, stage> motion(grid);
   const NodeCracks* nodes = fields.nodes.data();
   const std::uint8_t* held = fields.held.data();
@@ -308,13 +308,16 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
     if (held[i] == 0)
       return;
     const NodeCracks& n = nodes[i];
+    const long before = sum.touching;
     if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
       one_contact(motion, found, dt, n, i, lattice, laws, sum);
-      return;
+    } else {
+      NodeContact<Real, stage> here{motion, found, dt};
+      here.run(n, i, lattice, laws);
+      sum += here.report;
     }
-    NodeContact<Real, stage> here{motion, found, dt};
-    here.run(n, i, lattice, laws);
-    sum += here.report;
+    if (touched)
+      touched[i] = sum.touching > before;
   });
 }
 
@@ -344,13 +347,16 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
                               .reach = 0.2 * grid.lattice.h};
   switch (stage) {
     case ContactStage::before:
-      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, report);
+      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, nullptr, report);
     case ContactStage::after:
-      return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt, report);
+      sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
+      sums.touched.zero();
+      return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt,
+                                      sums.keep_touched ? sums.touched.data() : nullptr, report);
     case ContactStage::again:
-      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, report);
+      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, nullptr, report);
     case ContactStage::higher:
-      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, report);
+      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, nullptr, report);
   }
 }
 

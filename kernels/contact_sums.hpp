@@ -34,6 +34,9 @@ struct ContactSums {
   exec::Array<std::uint8_t> known;  ///< [flagged] 1 where those of the node have been summed in this step
   exec::Array<ContactArea> area;  ///< [2 flagged] entry 2 i + k: crack k of CrackFields::nodes[i]; empty: no interface
                                   ///< law
+  exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update; empty:
+                                      ///< not asked for
+  bool keep_touched = false;          ///< asks for it
 };
 
 /// What to sum.

@@ -4,8 +4,8 @@
 // volume on the first face, (W0 + K0) N_K dS. It is taken where that face is, and not where the crack's plane runs
 // between the two: across an opening of a cell energies would be carried on half a cell too far. Faces in contact meet
 // in the plane; the traction on them is that of the stresses beside them (Nairn and Aimene, section 2.2.2, step 5). A
-// small gap is no contact yet: the law must bear what the stresses ask of it, as a law that only presses bears nothing
-// behind a tip that is about to open.
+// small gap is no contact yet: contact must have acted on the nodes around, and the law must bear what the stresses ask
+// of it, as a law that only presses bears nothing behind a tip that is about to open.
 // Of the target crack's own faces those in line with its tip have no share of the energy; what they bear is counted by
 // how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From `bent` on
 // they are like those of other cracks.
@@ -76,7 +76,7 @@ class FaceIntegral {
     }
     task_.sums.crossed = true;
     if (task_.other_faces)
-      add_faces(segment, meet(segment, touching));
+      add_faces(segment, meet(segment));
   }
 
   void add_own(const Segment& s, double turn) {
@@ -84,14 +84,30 @@ class FaceIntegral {
     const bool loaded = own_.bears(s.k);
     if (loaded)
       own_.add_tractions(s.k, s.q, cell);
-    const bool in_line = turn<straight, is_bent = turn> bent;
+    const bool is_bent = turn > bent;
     task_.sums.bent = task_.sums.bent || is_bent;
     // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : meet(s, is_bent ? touching : shut);
+    const Meeting meeting = loaded ? Meeting{} : meet(is_bent ? s : clear_of_tip(s));
     if (meeting.holds && !is_bent)
       own_.add_contact(s.k, s.q, cell, meeting.traction);
-    if (!in_line)
+    if (!(turn < straight))
       add_faces(s, is_bent ? meeting : Meeting{});
+  }
+
+  /// A segment itself, or, next to the tip, where the grid has no stresses of faces, the first one behind it that is
+  /// far enough from there for its traction to be that of contact.
+  Segment clear_of_tip(const Segment& s) const {
+    const int step = task_.last ? -1 : 1, other = cracks_.end_point(task_.crack, !task_.last) - (task_.last ? 0 : 1);
+    Segment at = s;
+    while (at.k != other && norm(at.middle - task_.domain.tip) < disturbed * h_) {
+      at.k += step;
+      at.middle = middle_of(at.k);
+    }
+    const Vec2 along = view_.plane[at.k + 1] - view_.plane[at.k];
+    at.length = norm(along);
+    if (at.length > 0)
+      at.normal = turned(along * (1 / at.length));
+    return at;
   }
 
   /// Both faces where they touch each other.
@@ -101,12 +117,12 @@ class FaceIntegral {
     Vec2 traction;  ///< on the upper one
   };
 
-  /// Meets where faces are closer than some cells and their law bears what the stresses next to them ask for.
-  Meeting meet(const Segment& s, double cells) {
+  /// Meets where faces are close, have acted on each other, and their law bears what the stresses next to them ask for.
+  Meeting meet(const Segment& s) {
     Meeting m;
     const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
     const ContactSettings& contact = cracks_.contact[static_cast<size_t>(s.crack)];
-    if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < cells * h_))
+    if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < touching * h_) || !acted(s.middle))
       return m;
     Vec2 traction;
     for (const Side side : {Side::above, Side::below}) {
@@ -139,6 +155,18 @@ class FaceIntegral {
     }
   }
 
+  /// Has contact acted on one of the four nodes around a place?
+  bool acted(Vec2 x) const {
+    if (!task_.touched)
+      return true;
+    const Vec2 X = (x - view_.lattice.origin) * (1 / h_);
+    const int corner = static_cast<int>(std::floor(X.y)) * columns_ + static_cast<int>(std::floor(X.x));
+    for (const int node : {corner, corner + 1, corner + columns_, corner + columns_ + 1})
+      if (const int at = view_.node_index[node]; at >= 0 && task_.touched[at] != 0)
+        return true;
+    return false;
+  }
+
   int cell_of(int k) const { return fields_.cell_of(middle_of(k)); }
   Vec2 middle_of(int k) const { return 0.5 * (view_.plane[k] + view_.plane[k + 1]); }
   Vec2 middle_of_face(int k, Side side) const {
@@ -149,9 +177,8 @@ class FaceIntegral {
   static constexpr double straight = 1e-3;  ///< sine of the angle to the tip's heading up to which a face is in line
   static constexpr double bent = 0.2;       ///< and from which on the crack is bent for the interaction integral
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
-  /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, of
-  /// which at any tip some have opened by little.
-  static constexpr double touching = 0.05, shut = 1e-3;
+  static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field
+  static constexpr double touching = 0.05;  ///< opening in cells below which faces may press on each other
 
   const Cracks& cracks_;
   const SurfaceView& view_;

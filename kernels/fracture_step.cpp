@@ -88,6 +88,8 @@ class JSearch {
     task.turn = {dot(laid, task.heading), cross(laid, task.heading)};
     task.solid = &solids_[static_cast<size_t>(tip.material)];
     task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
+    if (!m_.contact_sums.touched.empty())
+      task.touched = m_.contact_sums.touched.data();
     task.other_faces = rules.method != JMethod::pijc;
     task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
     task.interaction = rules.interaction;

@@ -39,8 +39,9 @@ struct TipTask {
   bool other_faces = true;  ///< asks for the faces of other cracks
   const PlaneElasticity* solid = nullptr;
   RunningTip running;
-  bool inertia = false;      ///< asks for TipSums::inertia
-  bool interaction = false;  ///< and for TipSums::interaction
+  const std::uint8_t* touched = nullptr;  ///< ContactSums::touched; none: faces that are close may press on each other
+  bool inertia = false;                   ///< asks for TipSums::inertia
+  bool interaction = false;               ///< and for TipSums::interaction
   TipSums sums{};
 
   /// Displacement gradient F - R of what has turned by R with the tip.

@@ -138,6 +138,7 @@ Simulation::Simulation(const Scene& s, const exec::Space& where)
     make_constraints(scene, state);
   if (plan.loads)
     make_loads(scene, state);
+  contact_sums.keep_touched = plan.contact && plan.fracture;
   sort_particles(space, plan, state);
   tally(space, plan, state);
 }

@@ -1,0 +1,67 @@
+// A slanted crack that is pressed shut and slides: J and K with and without friction.
+//
+// In a wide plate under compression p, a crack of length 2 a at 45 degrees bears p/2 across it and p/2 along it; faces
+// with friction mu take mu p/2 of the latter up, and K_I = 0, K_II = (1 - mu) (p/2) sqrt(pi a) (J.B. Walsh, J. Geophys.
+// Res. 70 (1965) 399-411). The width of the plate makes the same of all, so that J falls by (1 - mu)^2 exactly.
+#include <numbers>
+
+#include "tests/physics/plates.hpp"
+
+namespace riven {
+namespace {
+
+using namespace gates;
+
+constexpr double mm = 1e-3, a = 8 * mm, p = 1e6, E = 2500e6;
+
+Scene pressed_plate(double friction) {
+  Scene s =
+      shipped("sent", {"grid.cell=1 mm", "grid.lower=[\"-34 mm\", \"-56 mm\"]", "grid.upper=[\"54 mm\", \"56 mm\"]",
+                       "contact.law=coulomb", fmt::format("contact.friction={}", friction)});
+  s.grips.clear();
+  s.grid_damping->value = 60e3;  // 1/s
+  s.bodies[0].region = Rectangle{{-30 * mm, -30 * mm}, {30 * mm, 30 * mm}};
+  const Vec2 t = std::sqrt(0.5) * Vec2{1, 1};
+  s.cracks[0].points = {-a * t, a * t};
+  for (const double side : {-1., 1.}) {
+    Load load;
+    load.name = side > 0 ? "top" : "bottom";
+    load.region = side > 0 ? Rectangle{{-30 * mm, 28 * mm}, {30 * mm, 30 * mm}}
+                           : Rectangle{{-30 * mm, -30 * mm}, {30 * mm, -28 * mm}};
+    const auto rise = [](double time) {
+      return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) : 1;
+    };
+    load.value[1] = {-side * p * 60 * mm * s.thickness, rise, ""};
+    s.loads.push_back(load);
+  }
+  return s;
+}
+
+TEST(ShutCrack, SlidesAgainstItsFriction) {
+  constexpr double friction = 0.3, K_II = 0.5 * p * 0.158533;  // sqrt(pi a)
+  double J_free = 0;
+  for (const double mu : {0., friction}) {
+    Plate plate(pressed_plate(mu));
+    print("shut crack", plate.hold());
+    for (const int contour : {4, 8, 12}) {
+      const Tip tip = plate.tip(contour);
+      const double share = (1 - mu) * K_II;
+      const std::string what = fmt::format("shut crack, friction {}, {} cells", mu, contour);
+      report(what + ": K_II over that of a wide plate", std::abs(tip.M_II) / share, "none");
+      report(what + ": K_I over it", tip.M_I / share, "0.05");
+      report(what + ": sqrt(J E) over K_II", std::sqrt(tip.J * E) / std::abs(tip.M_II), "1 +- 0.04");
+      EXPECT_NEAR(tip.M_I, 0, 0.05 * share);
+      EXPECT_NEAR(std::sqrt(tip.J * E), std::abs(tip.M_II), 0.04 * share);
+    }
+    const double J = plate.tip(8).J;
+    if (mu == 0) {
+      J_free = J;
+    } else {
+      report("shut crack: J with friction over that without", J / J_free, "(1 - mu)^2 = 0.49 +- 5 %");
+      EXPECT_NEAR(J / J_free, (1 - mu) * (1 - mu), 0.05 * (1 - mu) * (1 - mu));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace riven
