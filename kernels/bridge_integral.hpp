@@ -15,7 +15,8 @@
 
 namespace riven {
 
-/// Adds those of all tips near the domain to the sums of a task. `bridges`: those of `State::tips`.
-void add_bridges(const State<double, 2>&, const std::vector<TipBridge>& bridges, TipTask&);
+/// Adds those of all tips near the domain to the sums of a task. `bridges` and `places`: of State::tips.
+void add_bridges(const State<double, 2>&, const std::vector<TipBridge>& bridges, const std::vector<Vec2>& places,
+                 TipTask&);
 
 }  // namespace riven

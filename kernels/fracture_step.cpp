@@ -48,6 +48,8 @@ class JSearch {
   }
 
   void run() {
+    for (const Tip& t : s_.tips)
+      places_.push_back(position_of(s_.cracks, t));
     std::vector<Due> due;
     for (Tip& tip : s_.tips)
       if (tip.open && (report_ || growth_due(tip, s_.clock.step)))
@@ -59,7 +61,7 @@ class JSearch {
         tasks.push_back(place(d));
       sum_around_tips(m_.space, m_.plan, s_, tasks);
       for (TipTask& task : tasks)
-        add_bridges(s_, m_.bridges, task);
+        add_bridges(s_, m_.bridges, places_, task);
       std::vector<Due> again;
       for (size_t k = 0; k < due.size(); ++k)
         if (draw_in(due[k], tasks[k]))
@@ -101,9 +103,6 @@ class JSearch {
     std::vector<Vec2> list;
     if (m_.scene.fracture.method != JMethod::fijc_adaptive)
       return list;
-    if (places_.empty())
-      for (const Tip& t : s_.tips)
-        places_.push_back(position_of(s_.cracks, t));
     const Vec2 at = places_[static_cast<size_t>(&tip - s_.tips.data())];
     const double far = 2 * half_ + 2 * m_.scene.cell;
     for (size_t k = 0; k < places_.size(); ++k) {
