@@ -76,7 +76,7 @@ class FaceIntegral {
     }
     task_.sums.crossed = true;
     if (task_.other_faces)
-      add_faces(segment, meet(segment));
+      add_faces(segment, meet(segment, touching));
   }
 
   void add_own(const Segment& s, double turn) {
@@ -87,7 +87,7 @@ class FaceIntegral {
     const bool is_bent = turn > bent;
     task_.sums.bent = task_.sums.bent || is_bent;
     // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : meet(is_bent ? s : clear_of_tip(s));
+    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet(clear_of_tip(s), shut);
     if (meeting.holds && !is_bent)
       own_.add_contact(s.k, s.q, cell, meeting.traction);
     if (!(turn < straight))
@@ -117,12 +117,13 @@ class FaceIntegral {
     Vec2 traction;  ///< on the upper one
   };
 
-  /// Meets where faces are close, have acted on each other, and their law bears what the stresses next to them ask for.
-  Meeting meet(const Segment& s) {
+  /// Meets where faces are closer than some cells, have acted on each other, and their law bears what the stresses next
+  /// to them ask for.
+  Meeting meet(const Segment& s, double cells) {
     Meeting m;
     const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
     const ContactSettings& contact = cracks_.contact[static_cast<size_t>(s.crack)];
-    if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < touching * h_) || !acted(s.middle))
+    if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < cells * h_) || !acted(s.middle))
       return m;
     Vec2 traction;
     for (const Side side : {Side::above, Side::below}) {
@@ -178,7 +179,9 @@ class FaceIntegral {
   static constexpr double bent = 0.2;       ///< and from which on the crack is bent for the interaction integral
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field
-  static constexpr double touching = 0.05;  ///< opening in cells below which faces may press on each other
+  /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
+  /// have opened by little at any tip while nodes next to it may still touch.
+  static constexpr double touching = 0.05, shut = 1e-3;
 
   const Cracks& cracks_;
   const SurfaceView& view_;

@@ -67,7 +67,7 @@ class Growth {
   }
 
   /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
-  /// angle, within a cell and a half: what is left of the solid there is less than any contour can tell about.
+  /// angle, within the cells that the least contour takes: what is left of the solid there none can tell about.
   std::optional<Vec2> way_out() const {
     if (ends_within(ahead_, (0.5 * scene_.fracture.contour + 1) * scene_.cell))
       return ahead_;
@@ -76,7 +76,7 @@ class Growth {
       for (const double sign : {1., -1.}) {
         const double angle = sign * k * std::numbers::pi / (2 * angles);
         const Vec2 way = std::cos(angle) * ahead_ + std::sin(angle) * turned(ahead_);
-        if (ends_within(way, 1.5 * scene_.cell))
+        if (ends_within(way, 2.25 * scene_.cell))
           return way;
       }
     return std::nullopt;

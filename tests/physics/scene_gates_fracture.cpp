@@ -104,6 +104,16 @@ TEST(FractureTables, DISABLED_CrackAcrossOnQuarterMillimetreCells) {
   expect_crossings({crossings[3], crossings[4]}, {"grid.cell=0.25 mm"}, true, 0.025, 0.025, 0.025);
 }
 
+/// A tenth of the load, whose strains and moves are those of the references: at the whole load J around the 2 mm that
+/// are left at b/w = 0.54 is 2 to 4 % more, on cells of half the size, too.
+TEST(FractureTables, DISABLED_CrackAcrossAtSmallLoad) {
+  std::vector<Crossing> small(std::begin(crossings), std::end(crossings));
+  for (Crossing& c : small)
+    c = {c.b, 0.01 * c.free, 0.01 * c.frictionless};
+  expect_crossings(small, {"grip.top.velocity_y.value=0.3849 m/s", "grip.bottom.velocity_y.value=-0.3849 m/s"}, true,
+                   0.025, 0.025, 0.02);
+}
+
 /// Without the faces of V, J is too low where V is ahead of the tip (eq. 13) and too high where it is behind (eq. 14),
 /// the more so the larger the contour.
 void expect_errors_without_faces(const std::vector<std::string>& settings, int step) {
