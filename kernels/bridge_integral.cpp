@@ -13,22 +13,6 @@ namespace {
 /// Cells from a tip within which nodes are bridged.
 constexpr double extent = 2.5;
 
-/// Slopes d(delta)/dx of the openings of K_I = 1 and K_II = 1 at 1 m behind a tip, upper less lower face; they fall as
-/// one over the root of the distance.
-struct KnownSlopes {
-  Vec2 mode[2];
-
-  explicit KnownSlopes(const TipTask& task) {
-    const Vec2 t = task.heading, n = turned(t);
-    const AuxiliaryFields above = auxiliary_fields(*task.solid, task.running, {-1.0, 0.0}),
-                          below = auxiliary_fields(*task.solid, task.running, {-1.0, -0.0});
-    const double side = task.last ? 1 : -1;  // the upper face of the crack is the left one of its last tip
-    for (int m = 0; m < 2; ++m)
-      mode[m] = (side * (above.mode[m].dux_dx - below.mode[m].dux_dx)) * t +
-                (side * (above.mode[m].duy_dx - below.mode[m].duy_dx)) * n;
-  }
-};
-
 void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& bridge, Vec2 end, bool own, TipTask& task) {
   const Lattice& l = s.grid.lattice;
   const Vec2 t = heading_of(s.cracks, tip);
@@ -50,9 +34,9 @@ void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& brid
       (slope * (dot(force, turned(t)) * opening.x + dot(force, t) * opening.y)) * heading_of(s.cracks, tip, true);
   if (!own || !task.interaction)
     return;
-  const KnownSlopes known(task);
+  const KnownOpening known(*task.solid, task.running, task.heading, task.last);
   for (int mode = 0; mode < 2; ++mode)
-    task.sums.interaction[mode] -= dot(force, known.mode[mode]);
+    task.sums.interaction[mode] -= dot(force, known.slope[mode]);
 }
 
 }  // namespace

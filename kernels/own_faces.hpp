@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "core/state/cracks.hpp"
@@ -89,20 +90,13 @@ class OwnFaces {
   double first_length(int k) const { return norm(cracks_.plane0[k + 1] - cracks_.plane0[k]); }
 
   void add_known_opening(int k, double q, Vec2 traction) {
-    const Vec2 t = task_.heading, n = turned(t);
     const double a = norm(view_.plane[k] - task_.domain.tip), b = norm(view_.plane[k + 1] - task_.domain.tip);
-    const double behind = 0.5 * (a + b);
-    const AuxiliaryFields above = auxiliary_fields(*task_.solid, task_.running, {-behind, 0.0}),
-                          below = auxiliary_fields(*task_.solid, task_.running, {-behind, -0.0});
-    // the slopes there times this are their integral, for they fall as one over the root of the distance
-    const double length = 2 * std::fabs(std::sqrt(a) - std::sqrt(b)) * std::sqrt(behind);
-    // the upper face of the crack is the left one of its last tip, the right one of its first
-    const double side = task_.last ? 1 : -1;
-    for (int mode = 0; mode < 2; ++mode) {
-      const double along = above.mode[mode].dux_dx - below.mode[mode].dux_dx;
-      const double across = above.mode[mode].duy_dx - below.mode[mode].duy_dx;
-      task_.sums.interaction[mode] -= q * length * side * (dot(traction, t) * along + dot(traction, n) * across);
-    }
+    if (!known_)
+      known_.emplace(*task_.solid, task_.running, task_.heading, task_.last);
+    // slopes that fall as one over the root of the distance, integrated
+    const double length = 2 * std::fabs(std::sqrt(a) - std::sqrt(b));
+    for (int mode = 0; mode < 2; ++mode)
+      task_.sums.interaction[mode] -= q * length * dot(traction, known_->slope[mode]);
   }
 
   /// Which part of a segment comes before the place where another crack cuts it or one of its ends, or `uncut`. An end
@@ -144,6 +138,7 @@ class OwnFaces {
   const Cracks& cracks_;
   const SurfaceView& view_;
   TipTask& task_;
+  std::optional<KnownOpening> known_;  ///< once asked for
 };
 
 }  // namespace riven

@@ -119,4 +119,21 @@ inline AuxiliaryFields auxiliary_fields(const PlaneElasticity& solid, const Runn
   return with_fields(solid, tip, [&](const auto& fields) { return fields(r); });
 }
 
+/// d(delta)/dx along the heading of the openings under K_I = 1 and K_II = 1, 1 m behind a tip; as vectors of the plane,
+/// upper less lower face of the crack. They fall as one over the root of the distance.
+struct KnownOpening {
+  Vec2 slope[2];
+
+  /// `last`: the tip is the last one of its crack, whose upper face is to the left of its heading.
+  KnownOpening(const PlaneElasticity& solid, const RunningTip& tip, Vec2 heading, bool last) {
+    const AuxiliaryFields left = auxiliary_fields(solid, tip, {-1.0, 0.0}),
+                          right = auxiliary_fields(solid, tip, {-1.0, -0.0});
+    for (int m = 0; m < 2; ++m) {
+      const double along = left.mode[m].dux_dx - right.mode[m].dux_dx;
+      const double across = left.mode[m].duy_dx - right.mode[m].duy_dx;
+      slope[m] = (last ? 1.0 : -1.0) * (along * heading + across * turned(heading));
+    }
+  }
+};
+
 }  // namespace riven
