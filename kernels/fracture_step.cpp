@@ -48,12 +48,14 @@ class JSearch {
   }
 
   void run() {
-    for (const Tip& t : s_.tips)
-      places_.push_back(position_of(s_.cracks, t));
     std::vector<Due> due;
     for (Tip& tip : s_.tips)
       if (tip.open && (report_ || growth_due(tip, s_.clock.step)))
         due.push_back({&tip, {half_, half_, half_, half_}});
+    if (due.empty())
+      return;
+    for (const Tip& t : s_.tips)
+      places_.push_back(position_of(s_.cracks, t));
     while (!due.empty()) {
       std::vector<TipTask> tasks;
       tasks.reserve(due.size());
