@@ -27,8 +27,8 @@ void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& brid
   }
   if (force.x == 0 && force.y == 0)
     return;
-  const Vec2 opening =
-      opening_behind(s.cracks, tip, l.h);  // over the root of the distance; across the heading, along it
+  // over the root of the distance; across the heading, and along it
+  const Vec2 opening = opening_behind(s.cracks, tip, l.h);
   const double slope = -0.5 * (tip.last ? 1 : -1);
   task.sums.faces -=
       (slope * (dot(force, turned(t)) * opening.x + dot(force, t) * opening.y)) * heading_of(s.cracks, tip, true);

@@ -44,7 +44,7 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
 /// A crack's point and the crack around it.
 struct CrackPoint {
   int crack;
-  Vec2 x;       ///< as paths see it
+  Vec2 x;       ///< in the crack's plane
   Vec2 left;    ///< normal, towards above
   Vec2 beyond;  ///< direction in which the crack ends here, 0 unless the point is a tip
   bool tip;     ///< a tip of the crack in reach of the nodes around the point
