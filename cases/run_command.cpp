@@ -54,7 +54,8 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
 void print_cost_of_j(const Simulation& m) {
   const auto task = std::find_if(m.tasks.begin(), m.tasks.end(), [](const Task& t) { return t.label == "J and K"; });
   if (task != m.tasks.end() && m.fracture.evaluations > 0)
-    fmt::print("{} evaluations of J and K, {:.2f} us each\n", m.fracture.evaluations,
+    fmt::print("{} evaluations of J and K, {} of them crossed by other cracks, {:.2f} us each\n",
+               m.fracture.evaluations, m.fracture.crossed,
                1e6 * task->seconds / static_cast<double>(m.fracture.evaluations));
 }
 

@@ -41,25 +41,25 @@ void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& brid
 
 }  // namespace
 
-void add_bridges(const State<double, 2>& s, const std::vector<TipBridge>& bridges, const std::vector<Vec2>& places,
+void add_bridges(const State<double, 2>& s, const std::vector<TipBridge>& bridges, const TipPlaces& places,
                  TipTask& task) {
   const double h = s.grid.lattice.h;
   const JDomain& d = task.domain;
   const double far = std::max({d.outer(right), d.outer(top), d.outer(left), d.outer(bottom)}) + extent * h;
-  for (size_t k = 0; k < bridges.size(); ++k) {
+  if (bridges.empty())
+    return;
+  places.each_near(d.tip, far, [&](size_t k) {
     const Vec2 r = places[k] - d.tip;
-    if (std::fabs(r.x) > far || std::fabs(r.y) > far)
-      continue;
     const double inside =
         std::min({d.inner(right) - r.x, d.inner(left) + r.x, d.inner(top) - r.y, d.inner(bottom) + r.y});
     const double outside =
         std::max({r.x - d.outer(right), -r.x - d.outer(left), r.y - d.outer(top), -r.y - d.outer(bottom)});
     if (inside > extent * h || outside > extent * h)
-      continue;
+      return;
     const Tip& tip = s.tips[k];
     if (tip.open && bridges[k].count > 0)
       add_bridge(s, tip, bridges[k], places[k], tip.crack == task.crack && tip.last == task.last, task);
-  }
+  });
 }
 
 }  // namespace riven

@@ -10,13 +10,13 @@
 #pragma once
 #include <vector>
 
+#include "core/fracture/tip_places.hpp"
 #include "kernels/bridge_tips.hpp"
 #include "kernels/j_integral.hpp"
 
 namespace riven {
 
 /// Adds those of all tips near the domain to the sums of a task. `bridges` and `places`: of State::tips.
-void add_bridges(const State<double, 2>&, const std::vector<TipBridge>& bridges, const std::vector<Vec2>& places,
-                 TipTask&);
+void add_bridges(const State<double, 2>&, const std::vector<TipBridge>& bridges, const TipPlaces& places, TipTask&);
 
 }  // namespace riven

@@ -15,16 +15,18 @@
 namespace riven {
 
 /// What is asked for on a face, and where in FaceValues it begins.
-inline constexpr int face_energy = 0;   ///< strain and kinetic energy per first volume, Pa
-inline constexpr int face_eshelby = 1;  ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
-inline constexpr int face_stress = 5;   ///< [xx yy xy], Pa
-using FaceValues = std::array<double, 8>;
+inline constexpr int face_stress = 0;                     ///< [xx yy xy], Pa
+inline constexpr int face_energy = 3;                     ///< strain and kinetic energy per first volume, Pa
+inline constexpr int face_eshelby = 4;                    ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
+inline constexpr int face_stresses = 3, face_values = 8;  ///< how many come before the energy, and in all
+using FaceValues = std::array<double, face_values>;
 
-/// Sums for the fits of one velocity field of one node; offsets are from the node, in cells.
+/// Sums for the fits of one velocity field of one node, for its first values; offsets are from the node, in cells.
 struct FieldFit {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< in cells
   FaceValues f{}, fx{}, fy{};
 
+  template <size_t Count>
   RIVEN_INLINE void add(double weight, double rx, double ry, const FaceValues& values) {
     area += weight;
     x += weight * rx;
@@ -32,15 +34,15 @@ struct FieldFit {
     xx += weight * rx * rx;
     xy += weight * rx * ry;
     yy += weight * ry * ry;
-    for (size_t k = 0; k < values.size(); ++k) {
+    for (size_t k = 0; k < Count; ++k) {
       const double w = weight * values[k];
       f[k] += w;
       fx[k] += w * rx;
       fy[k] += w * ry;
     }
   }
-  /// Adds weight * (value at offset r) of the fitted field to `to`.
-  void evaluate(Vec2 r, double weight, FaceValues& to) const;
+  /// Adds weight * (value at offset r) of the fitted field to `to`, for the first `count` values.
+  void evaluate(Vec2 r, double weight, size_t count, FaceValues& to) const;
 };
 
 }  // namespace riven

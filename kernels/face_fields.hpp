@@ -21,7 +21,12 @@ template <class Shape, class Law, class Real>
 class FaceFields {
  public:
   FaceFields(const State<Real, 2>& s, const SurfaceView& view, const TipTask& task)
-      : s_(s), view_(view), law_(laws<Law>(s)), task_(task), drift_(s.watch.drift / s.grid.lattice.h + 1e-6) {
+      : s_(s),
+        view_(view),
+        law_(laws<Law>(s)),
+        task_(task),
+        drift_(s.watch.drift / s.grid.lattice.h + 1e-6),
+        memory_(cleared_memory()) {
     const auto [lower, upper] = cells_of_domain(around, 0);
     corner_ = lower;
     width_ = upper[0] - lower[0] + 1;
@@ -32,6 +37,9 @@ class FaceFields {
     const Lattice& l = s_.grid.lattice;
     return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
   }
+
+  /// Before any values are: energies and Eshelby's tensor are left out otherwise, being dear.
+  void ask_for_energies() { energies_ = true; }
 
   struct Cells {
     std::array<int, 2> lower, upper;
@@ -94,30 +102,37 @@ class FaceFields {
       const FieldFit& fit = fits(ni, nj)[static_cast<size_t>(field)];
       if (!(fit.area > least_area))
         continue;
-      fit.evaluate(r, N * fit.area, values);
+      fit.evaluate(r, N * fit.area, energies_ ? face_values : face_stresses, values);
       area += N * fit.area;
     }
   }
 
   const Fits& fits(int i, int j) {
-    if (index_.empty())
-      index_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), -1);
-    int& at = index_[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
+    if (memory_.index.empty())
+      memory_.index.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), -1);
+    int& at = memory_.index[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
     if (at < 0) {
-      at = static_cast<int>(fits_.size());
-      fits_.emplace_back();
-      sum_node(i, j, fits_.back());
+      at = static_cast<int>(memory_.fits.size());
+      memory_.fits.emplace_back();
+      sum_node(i, j, memory_.fits.back());
     }
-    return fits_[static_cast<size_t>(at)];
+    return memory_.fits[static_cast<size_t>(at)];
   }
 
   void sum_node(int I, int J, Fits& fits) {
+    if (energies_)
+      sum_values<face_values>(I, J, fits);
+    else
+      sum_values<face_stresses>(I, J, fits);
+  }
+  template <size_t Count>
+  void sum_values(int I, int J, Fits& fits) {
     const double reach = 1.5 + drift_;
     for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
       for (int i = Shape::cell(I - reach); i <= Shape::cell(I + reach); ++i) {
         const auto [first, last] = seen_in(i, j);
         for (int k = first; k < last; ++k)
-          seen_[static_cast<size_t>(k)].add(I, J, fits);
+          memory_.seen[static_cast<size_t>(k)].template add<Count>(I, J, fits);
       }
   }
 
@@ -130,35 +145,52 @@ class FaceFields {
     std::uint32_t word;
     FaceValues values;
 
+    template <size_t Count>
     void add(int I, int J, Fits& fits) const {
       const int m = I - base_x, n = J - base_y;
       if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
         return;
       const double S = weight_x[m] * weight_y[n];
       if (S > 0)
-        fits[static_cast<size_t>(CrackFields::field_of(word, n * Shape::width + m))].add(area * S, x - m, y - n,
-                                                                                         values);
+        fits[static_cast<size_t>(CrackFields::field_of(word, n * Shape::width + m))].template add<Count>(
+            area * S, x - m, y - n, values);
     }
   };
   struct Range {
     int first = -1, last = -1;
   };
 
-  /// The particles of a cell, positions in seen_.
+  /// Kept by its thread from tip to tip, as asking for memory would take as long as filling it.
+  struct Memory {
+    std::vector<int> index;      ///< [nodes of the domain] position in fits, or -1
+    std::vector<Fits> fits;      ///< of nodes that were asked for
+    std::vector<Range> of_cell;  ///< [cells of the domain and its margin]
+    std::vector<Seen> seen;      ///< particles of cells that were asked for
+  };
+  static Memory& cleared_memory() {
+    thread_local Memory memory;
+    memory.index.clear();
+    memory.fits.clear();
+    memory.of_cell.clear();
+    memory.seen.clear();
+    return memory;
+  }
+
+  /// The particles of a cell, positions in Memory::seen.
   Range seen_in(int i, int j) {
     const int x = i - corner_[0] + margin, y = j - corner_[1] + margin, width = width_ + 2 * margin;
-    if (of_cell_.empty())
-      of_cell_.resize(static_cast<size_t>(width) * static_cast<size_t>(height_ + 2 * margin));
+    if (memory_.of_cell.empty())
+      memory_.of_cell.resize(static_cast<size_t>(width) * static_cast<size_t>(height_ + 2 * margin));
     if (x < 0 || y < 0 || x >= width || y >= height_ + 2 * margin)
       return {0, 0};
-    Range& range = of_cell_[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    Range& range = memory_.of_cell[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
     if (range.first < 0) {
-      range.first = static_cast<int>(seen_.size());
+      range.first = static_cast<int>(memory_.seen.size());
       each_stretch_of_row(s_.grid.lattice, s_.particles.tiles.cell_start.data(), j, i, i, [&](int first, int last) {
         for (int p = first; p < last; ++p)
           see(p);
       });
-      range.last = static_cast<int>(seen_.size());
+      range.last = static_cast<int>(memory_.seen.size());
     }
     return range;
   }
@@ -170,12 +202,9 @@ class FaceFields {
     const double inv = 1 / l.h, X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
     const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
     const LawState<Real> state = law_state<Law>(p, i);
-    const auto& F = state.F;
     const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
-    const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
     const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
-    const Mat2<double> H = task_.gradient(F);
-    Seen seen;
+    Seen& seen = memory_.seen.emplace_back();
     seen.base_x = a.base;
     seen.base_y = b.base;
     seen.x = X - a.base;
@@ -186,15 +215,19 @@ class FaceFields {
     }
     seen.area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
     seen.word = s_.fields.fields[i];
+    seen.values[face_stress] = xx;
+    seen.values[face_stress + 1] = yy;
+    seen.values[face_stress + 2] = xy;
+    if (!energies_)
+      return;
+    const auto& F = state.F;
+    const Mat2<double> H = task_.gradient(F);
+    const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
     seen.values[face_energy] = W * state.J;
     seen.values[face_eshelby] = W * F.xx - (xx * H.xx + xy * H.yx);
     seen.values[face_eshelby + 1] = W * F.yx - (xy * H.xx + yy * H.yx);
     seen.values[face_eshelby + 2] = W * F.xy - (xx * H.xy + xy * H.yy);
     seen.values[face_eshelby + 3] = W * F.yy - (xy * H.xy + yy * H.yy);
-    seen.values[face_stress] = xx;
-    seen.values[face_stress + 1] = yy;
-    seen.values[face_stress + 2] = xy;
-    seen_.push_back(seen);
   }
 
   static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
@@ -208,10 +241,8 @@ class FaceFields {
   double drift_;
   std::array<int, 2> corner_{0, 0};
   int width_ = 0, height_ = 0;
-  std::vector<int> index_;  ///< [nodes of the domain] position in fits_, or -1
-  std::vector<Fits> fits_;
-  std::vector<Range> of_cell_;  ///< [cells of the domain and its margin]
-  std::vector<Seen> seen_;
+  bool energies_ = false;
+  Memory& memory_;
 };
 
 }  // namespace riven

@@ -13,6 +13,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "kernels/face_fields.hpp"
 #include "kernels/own_faces.hpp"
@@ -22,22 +23,32 @@ namespace riven {
 template <class Shape, class Law, class Real>
 class FaceIntegral {
  public:
-  FaceIntegral(const State<Real, 2>& s, const SurfaceView& view, TipTask& task)
+  FaceIntegral(const State<Real, 2>& s, const SurfaceView& view, const SegmentsByCell& segments, TipTask& task)
       : cracks_(s.cracks),
         view_(view),
+        segments_(segments),
         h_(s.grid.lattice.h),
-        columns_(s.grid.lattice.nx),
         task_(task),
         fields_(s, view, task),
-        own_(s.cracks, view, task) {}
+        own_(s.cracks, view, segments, task) {}
 
   void add() {
     // half a cell more, as B-splines count cells from mid-cell to mid-cell; behind the tip its own faces are looked at
     // as far as their opening is
     const auto [lower, upper] = fields_.cells_of_domain(0.5, 5);
+    thread_local std::vector<Segment> segments;
+    segments.clear();
     for (int j = lower[1]; j <= upper[1]; ++j)
-      for (int i = lower[0]; i <= upper[0]; ++i)
-        add_cell(j * columns_ + i);
+      segments_.each_of_row(j, lower[0], upper[0], [&](int k, int cell) { list(k, cell, segments); });
+    for (const Segment& s : segments)
+      if (s.turn >= straight)
+        fields_.ask_for_energies();
+    for (const Segment& s : segments) {
+      if (s.crack == task_.crack)
+        add_own(s);
+      else if (task_.other_faces)
+        add_faces(s, meet(s, touching));
+    }
   }
 
  private:
@@ -45,21 +56,11 @@ class FaceIntegral {
     int k, crack;
     Vec2 middle, normal;  ///< normal of unit length, towards above
     double length, q;
+    double turn;  ///< sine of the angle to the tip's heading; 2 for another crack
   };
 
-  /// The segments whose middle is in a cell, which sees them all.
-  void add_cell(int cell) {
-    const int seen = view_.cell_index[cell];
-    if (seen < 0)
-      return;
-    for (int at = view_.cell_start[seen]; at < view_.cell_start[seen + 1]; ++at) {
-      const int k = view_.cell_segment[at];
-      if (cell_of(k) == cell)
-        add_segment(k, cell);
-    }
-  }
-
-  void add_segment(int k, int cell) {
+  /// Lists a segment if it has a part in J.
+  void list(int k, int cell, std::vector<Segment>& segments) {
     const int crack = view_.crack[k];
     const bool own = crack == task_.crack;
     if (own)
@@ -69,28 +70,21 @@ class FaceIntegral {
     if (!(q > 0) || !(length > 0))
       return;
     const Vec2 t = along * (1 / length);
-    const Segment segment{k, crack, middle, turned(t), length, q};
-    if (own) {
-      add_own(segment, std::fabs(cross(t, task_.heading)));
-      return;
-    }
-    task_.sums.crossed = true;
-    if (task_.other_faces)
-      add_faces(segment, meet(segment, touching));
+    task_.sums.crossed = task_.sums.crossed || !own;
+    segments.push_back({k, crack, middle, turned(t), length, q, own ? std::fabs(cross(t, task_.heading)) : 2});
   }
 
-  void add_own(const Segment& s, double turn) {
-    const auto cell = [this](int n) { return cell_of(n); };
+  void add_own(const Segment& s) {
     const bool loaded = own_.bears(s.k);
     if (loaded)
-      own_.add_tractions(s.k, s.q, cell);
-    const bool is_bent = turn > bent;
+      own_.add_tractions(s.k, s.q);
+    const bool is_bent = s.turn > bent;
     task_.sums.bent = task_.sums.bent || is_bent;
     // tractions of laws are counted already, however little the faces have opened
     const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet(clear_of_tip(s), shut);
     if (meeting.holds && !is_bent)
-      own_.add_contact(s.k, s.q, cell, meeting.traction);
-    if (!(turn < straight))
+      own_.add_contact(s.k, s.q, meeting.traction);
+    if (!(s.turn < straight))
       add_faces(s, is_bent ? meeting : Meeting{});
   }
 
@@ -161,14 +155,14 @@ class FaceIntegral {
     if (!task_.touched)
       return true;
     const Vec2 X = (x - view_.lattice.origin) * (1 / h_);
-    const int corner = static_cast<int>(std::floor(X.y)) * columns_ + static_cast<int>(std::floor(X.x));
-    for (const int node : {corner, corner + 1, corner + columns_, corner + columns_ + 1})
+    const int columns = view_.lattice.nx;
+    const int corner = static_cast<int>(std::floor(X.y)) * columns + static_cast<int>(std::floor(X.x));
+    for (const int node : {corner, corner + 1, corner + columns, corner + columns + 1})
       if (const int at = view_.node_index[node]; at >= 0 && task_.touched[at] != 0)
         return true;
     return false;
   }
 
-  int cell_of(int k) const { return fields_.cell_of(middle_of(k)); }
   Vec2 middle_of(int k) const { return 0.5 * (view_.plane[k] + view_.plane[k + 1]); }
   Vec2 middle_of_face(int k, Side side) const {
     const exec::Array<Vec2>& at = side == Side::above ? cracks_.upper : cracks_.lower;
@@ -185,8 +179,8 @@ class FaceIntegral {
 
   const Cracks& cracks_;
   const SurfaceView& view_;
+  const SegmentsByCell& segments_;
   double h_;
-  int columns_;
   TipTask& task_;
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;

@@ -7,6 +7,7 @@
 #include "core/fracture/growth.hpp"
 #include "core/fracture/opening.hpp"
 #include "core/fracture/place_domain.hpp"
+#include "core/fracture/tip_places.hpp"
 #include "core/scene/schedule.hpp"
 #include "kernels/bridge_integral.hpp"
 #include "kernels/simulation.hpp"
@@ -54,8 +55,10 @@ class JSearch {
         due.push_back({&tip, {half_, half_, half_, half_}});
     if (due.empty())
       return;
+    std::vector<Vec2> places;
     for (const Tip& t : s_.tips)
-      places_.push_back(position_of(s_.cracks, t));
+      places.push_back(position_of(s_.cracks, t));
+    places_ = TipPlaces(std::move(places));
     while (!due.empty()) {
       std::vector<TipTask> tasks;
       tasks.reserve(due.size());
@@ -106,12 +109,10 @@ class JSearch {
     if (m_.scene.fracture.method != JMethod::fijc_adaptive)
       return list;
     const Vec2 at = places_[static_cast<size_t>(&tip - s_.tips.data())];
-    const double far = 2 * half_ + 2 * m_.scene.cell;
-    for (size_t k = 0; k < places_.size(); ++k) {
-      const Vec2 r = places_[k] - at;
-      if (std::fabs(r.x) < far && std::fabs(r.y) < far && s_.tips[k].open && &s_.tips[k] != &tip)
+    places_.each_near(at, 2 * half_ + 2 * m_.scene.cell, [&](size_t k) {
+      if (s_.tips[k].open && &s_.tips[k] != &tip)
         list.push_back(places_[k]);
-    }
+    });
     return list;
   }
 
@@ -163,6 +164,7 @@ class JSearch {
     if (!d.settled)
       count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
     ++m_.fracture.evaluations;
+    m_.fracture.crossed += sums.crossed;
     share(tip, task);
   }
 
@@ -202,7 +204,7 @@ class JSearch {
   bool report_;
   double half_;
   std::vector<PlaneElasticity> solids_;
-  std::vector<Vec2> places_;  ///< [tips]
+  TipPlaces places_;
 };
 
 /// One stage; `reaches_particles` is the part of its change in energy that the particles take over.

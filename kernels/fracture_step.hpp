@@ -13,6 +13,7 @@ struct FractureReport {
   long drawn_in = 0;  ///< the contour left the solid and was drawn in
   long unsound = 0;   ///< it leaves the solid however small
   long evaluations = 0;
+  long crossed = 0;  ///< evaluations with another crack in the domain
   Vec2 place[3];
 };
 

@@ -1,5 +1,6 @@
 #include "kernels/j_integral.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -9,7 +10,7 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/face_integral.hpp"
 #include "kernels/field_slots.hpp"
-#include "kernels/law_state.hpp"
+#include "kernels/j_band.hpp"
 
 namespace riven {
 
@@ -43,79 +44,6 @@ Motion motion_of(const State<Real, 2>& s, const FieldSlots& slots, long p) {
   return m;
 }
 
-/// Particles on which q falls, gathered so that the sums over them are vector instructions.
-struct Band {
-  static constexpr int lanes = exec::lanes;
-  int count = 0;
-  alignas(64) double rx[lanes], ry[lanes];  ///< m, from the tip
-  alignas(64) double gx[lanes], gy[lanes];  ///< 1/m, gradient of q
-  alignas(64) double vx[lanes], vy[lanes];
-  alignas(64) double mass[lanes];                         ///< kg/m, per thickness
-  alignas(64) double first_area[lanes];                   ///< m^2
-  alignas(64) double energy[lanes];                       ///< m^2/s^2, strain and kinetic energy per mass
-  alignas(64) double sxx[lanes], syy[lanes], sxy[lanes];  ///< m^2/s^2, Kirchhoff stress per mass
-  alignas(64) double Fxx[lanes], Fxy[lanes], Fyx[lanes], Fyy[lanes];
-
-  /// Lanes that no particle was found for weigh nothing.
-  void pad() {
-    for (int k = count; k < lanes; ++k) {
-      rx[k] = 1;
-      ry[k] = gx[k] = gy[k] = vx[k] = vy[k] = mass[k] = first_area[k] = energy[k] = sxx[k] = syy[k] = sxy[k] = 0;
-      Fxx[k] = Fxy[k] = Fyx[k] = Fyy[k] = 0;
-    }
-  }
-
-  /// - sum a_p E_Kj dq/dx_j
-  Vec2 J(const TipTask& task) const {
-    alignas(64) double x[lanes], y[lanes];
-    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
-      const double sx = sxx[k] * gx[k] + sxy[k] * gy[k], sy = sxy[k] * gx[k] + syy[k] * gy[k];
-      const Mat2<double> H = task.gradient(Mat2<double>{Fxx[k], Fxy[k], Fyx[k], Fyy[k]});
-      x[k] = mass[k] * (H.xx * sx + H.yx * sy - energy[k] * (Fxx[k] * gx[k] + Fyx[k] * gy[k]));
-      y[k] = mass[k] * (H.xy * sx + H.yy * sy - energy[k] * (Fxy[k] * gx[k] + Fyy[k] * gy[k]));
-    });
-    return {sum(x), sum(y)};
-  }
-
-  /// Interaction of the actual fields with known ones, in the tip's frame; the displacement gradient is that in what
-  /// has turned with the tip. The actual stress is per mass, the known one per volume.
-  template <class Fields>
-  void add_interaction(TipTask& task, const Fields& fields) const {
-    alignas(64) double value[2][lanes];
-    const Vec2 t = task.heading, n = turned(t);
-    const Vec2 t0{task.turn.x * t.x + task.turn.y * t.y, task.turn.x * t.y - task.turn.y * t.x};
-    const double speed = task.running.speed;
-    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
-      const Mat2<double> H = task.gradient(Mat2<double>{Fxx[k], Fxy[k], Fyx[k], Fyy[k]});
-      const Vec2 ut{H.xx * t0.x + H.xy * t0.y, H.yx * t0.x + H.yy * t0.y};
-      const double u1 = ut.x * t.x + ut.y * t.y, u2 = ut.x * n.x + ut.y * n.y;
-      const double sx = sxx[k] * t.x + sxy[k] * t.y, sy = sxy[k] * t.x + syy[k] * t.y;
-      const double s11 = sx * t.x + sy * t.y, s12 = sx * n.x + sy * n.y, s22 = sxx[k] + syy[k] - s11;
-      const double q1 = gx[k] * t.x + gy[k] * t.y, q2 = gx[k] * n.x + gy[k] * n.y;
-      // velocity times that of the running field, which is - speed du/dx
-      const double v1 = -speed * (vx[k] * t.x + vy[k] * t.y), v2 = -speed * (vx[k] * n.x + vy[k] * n.y);
-      const AuxiliaryFields known = fields(Vec2{rx[k] * t.x + ry[k] * t.y, rx[k] * n.x + ry[k] * n.y});
-      for (int mode = 0; mode < 2; ++mode) {
-        const AuxiliaryField& a = known.mode[mode];
-        const double work = s11 * a.exx + s22 * a.eyy + 2 * s12 * a.exy + v1 * a.dux_dx + v2 * a.duy_dx;
-        const double own = q1 * (s11 * a.dux_dx + s12 * a.duy_dx) + q2 * (s12 * a.dux_dx + s22 * a.duy_dx);
-        const double other = q1 * (a.sxx * u1 + a.sxy * u2) + q2 * (a.sxy * u1 + a.syy * u2);
-        value[mode][k] = mass[k] * (own - work * q1) + first_area[k] * other;
-      }
-    });
-    task.sums.interaction[0] += sum(value[0]);
-    task.sums.interaction[1] += sum(value[1]);
-  }
-
- private:
-  static double sum(const double* value) {
-    double total = 0;
-    for (int k = 0; k < lanes; ++k)
-      total += value[k];
-    return total;
-  }
-};
-
 template <class Shape, class Law, class Real>
 class TipSummer {
  public:
@@ -133,8 +61,8 @@ class TipSummer {
     // cells that lie, whole, where q is 1
     const int k0 = cell(c.x - d.inner(left) * inv + drift) + 1, k1 = cell(c.x + d.inner(right) * inv - drift) - 1;
     const int m0 = cell(c.y - d.inner(bottom) * inv + drift) + 1, m1 = cell(c.y + d.inner(top) * inv - drift) - 1;
-    FoundList found;
-    const auto take = [&](int first, int last) { look(task, found, first, last); };
+    Chosen chosen;
+    const auto take = [&](int first, int last) { look(task, chosen, first, last); };
     const int* start = s_.particles.tiles.cell_start.data();
     for (int j = j0; j <= j1; ++j) {
       if (task.inertia || j < m0 || j > m1 || k0 > k1) {
@@ -144,95 +72,72 @@ class TipSummer {
         each_stretch_of_row(l, start, j, k1 + 1, i1, take);
       }
     }
-    sum_found(task, found);
+    sum_chosen(task, chosen);
     for (int e = 0; e < 4; ++e)
       task.sums.filled[e] /= d.length(e);
   }
 
  private:
-  /// A particle on which q falls.
-  struct Found {
-    int particle;
-    Vec2 r;
-    JWeight q;
-  };
-  struct FoundList {
-    static constexpr int most = 256;
+  static constexpr int lanes = exec::lanes;
+
+  /// Particles on which q falls.
+  struct Chosen {
+    static constexpr int most = 512;
     int count = 0;
-    Found item[most];
+    int particle[most + lanes];
   };
 
-  void look(TipTask& task, FoundList& found, int first, int last) const {
-    const Particles<Real, 2>& p = s_.particles;
-    for (int i = first; i < last; ++i) {
-      const Vec2 r = Vec2{double(p.x[0][i]), double(p.x[1][i])} - task.domain.tip;
-      const JWeight q = task.domain.at(r);
-      if (q.slope_x > 0 || q.slope_y > 0) {
-        if (found.count == FoundList::most)
-          sum_found(task, found);
-        ask_for(i);
-        found.item[found.count++] = {i, r, q};
+  void look(TipTask& task, Chosen& chosen, int first, int last) const {
+    const JDomain d = task.domain;
+    const double outer[4] = {d.outer(right), d.outer(top), -d.outer(left), -d.outer(bottom)};
+    const double inner[4] = {d.inner(right), d.inner(top), -d.inner(left), -d.inner(bottom)};
+    for (int at = first; at < last; at += lanes) {
+      const Real *x = s_.particles.x[0].data() + at, *y = s_.particles.x[1].data() + at;
+      alignas(64) std::int64_t falls[lanes];
+      exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+        const double rx = x[k] - d.tip.x, ry = y[k] - d.tip.y;
+        const bool inside = (rx > outer[left]) & (rx < outer[right]) & (ry > outer[bottom]) & (ry < outer[top]);
+        const bool full = (rx >= inner[left]) & (rx <= inner[right]) & (ry >= inner[bottom]) & (ry <= inner[top]);
+        falls[k] = inside & !full;
+      });
+      if (chosen.count > Chosen::most - lanes)
+        sum_chosen(task, chosen);
+      const int count = std::min(lanes, last - at), before = chosen.count;
+      for (int k = 0; k < count; ++k) {
+        chosen.particle[chosen.count] = at + k;
+        chosen.count += static_cast<int>(falls[k]);
       }
+      if (chosen.count > before)
+        ask_for(at);
       if (task.inertia)
-        add_inertia(task, i, r);
+        for (int k = 0; k < count; ++k)
+          add_inertia(task, at + k, {x[k] - d.tip.x, y[k] - d.tip.y});
     }
   }
 
   /// Tips lie far apart in memory, so that their particles are waited for unless asked for beforehand.
-  void ask_for(int i) const {
+  void ask_for(int first) const {
     const Particles<Real, 2>& p = s_.particles;
+    constexpr int line = 64 / sizeof(Real);
     for (const Real* array : {p.F[0].data(), p.F[1].data(), p.F[2].data(), p.F[3].data(), p.stress[0].data(),
                               p.stress[1].data(), p.stress[2].data(), p.v[0].data(), p.v[1].data(), p.mass.data()})
-      exec::prefetch(array + i);
-    exec::prefetch(p.body.data() + i);
+      for (int k = 0; k < lanes; k += line)
+        exec::prefetch(array + first + k);
+    exec::prefetch(p.body.data() + first);
   }
 
-  void sum_found(TipTask& task, FoundList& found) const {
+  void sum_chosen(TipTask& task, Chosen& chosen) const {
+    if (chosen.count > 0)
+      std::fill_n(chosen.particle + chosen.count, lanes, chosen.particle[chosen.count - 1]);
     Band band;
-    for (int k = 0; k < found.count; ++k) {
-      gather(task, band, found.item[k]);
-      if (band.count == Band::lanes)
-        sum_band(task, band);
+    for (int k = 0; k < chosen.count; k += lanes) {
+      band.take(s_, law_, task.domain, chosen.particle + k, std::min(lanes, chosen.count - k));
+      band.add_j(task);
+      if (task.interaction)
+        with_fields(*task.solid, task.running, [&](const auto& fields) { band.add_interaction(task, fields); });
     }
-    sum_band(task, band);
-    found.count = 0;
-  }
-
-  void gather(TipTask& task, Band& band, const Found& found) const {
-    const Particles<Real, 2>& p = s_.particles;
-    const auto& [i, r, q] = found;
-    const LawState<Real> state = law_state<Law>(p, i);
-    const int body = p.body[i], k = band.count++;
-    const Vec2 v{double(p.v[0][i]), double(p.v[1][i])}, g = q.gradient();
-    const double area = p.mass[i] * s_.specific_area[body] * state.J;
-    task.sums.filled[q.edge_x] += area * q.slope_x;
-    task.sums.filled[q.edge_y] += area * q.slope_y;
-    band.rx[k] = r.x;
-    band.ry[k] = r.y;
-    band.gx[k] = g.x;
-    band.gy[k] = g.y;
-    band.vx[k] = v.x;
-    band.vy[k] = v.y;
-    band.mass[k] = p.mass[i] / s_.thickness[body];
-    band.first_area[k] = p.mass[i] * s_.specific_area[body];
-    band.energy[k] = 0.5 * dot(v, v) + law_.of(i).energy(state);
-    band.sxx[k] = state.xx;
-    band.syy[k] = state.yy;
-    band.sxy[k] = state.xy;
-    band.Fxx[k] = state.F.xx;
-    band.Fxy[k] = state.F.xy;
-    band.Fyx[k] = state.F.yx;
-    band.Fyy[k] = state.F.yy;
-  }
-
-  static void sum_band(TipTask& task, Band& band) {
-    if (band.count == 0)
-      return;
-    band.pad();
-    task.sums.J += band.J(task);
-    if (task.interaction)
-      with_fields(*task.solid, task.running, [&](const auto& fields) { band.add_interaction(task, fields); });
-    band.count = 0;
+    band.add_to(task.sums);
+    chosen.count = 0;
   }
 
   void add_inertia(TipTask& task, int i, Vec2 r) const {
@@ -272,11 +177,12 @@ void sum_tasks(const exec::Space& space, const State<Real, 2>& s, std::vector<Ti
   if constexpr (Law::keeps_F) {
     const TipSummer<Shape, Law, Real> summer(s);
     const SurfaceView view = surface_view(s.grid.lattice, s.cracks, s.fields);
+    const SegmentsByCell segments(Shape{}, s.grid.lattice, s.cracks);
     exec::parallel_tasks(space, "J integral", static_cast<long>(tasks.size()), [&](long k) {
       TipTask& task = tasks[static_cast<size_t>(k)];
       task.sums = {};
       summer.sum(task);
-      FaceIntegral<Shape, Law, Real>(s, view, task).add();
+      FaceIntegral<Shape, Law, Real>(s, view, segments, task).add();
     });
   } else {
     fail({Exit::internal, "J was not planned for: displacement gradients are not kept", "J integral", {}, {}, {}});

@@ -16,6 +16,7 @@
 #include "core/state/cracks.hpp"
 #include "core/state/tractions.hpp"
 #include "kernels/j_integral.hpp"
+#include "kernels/segments_by_cell.hpp"
 #include "kernels/surface_field.hpp"
 
 namespace riven {
@@ -43,20 +44,19 @@ inline Vec2 contact_traction(const ContactSettings& contact, Vec2 traction, Vec2
 
 class OwnFaces {
  public:
-  OwnFaces(const Cracks& cracks, const SurfaceView& view, TipTask& task) : cracks_(cracks), view_(view), task_(task) {}
+  OwnFaces(const Cracks& cracks, const SurfaceView& view, const SegmentsByCell& segments, TipTask& task)
+      : cracks_(cracks), view_(view), segments_(segments), task_(task) {}
 
   /// Does a segment bear tractions of a law?
   bool bears(int k) const { return !cracks_.bearing.empty() && cracks_.bearing[k].y > 0; }
 
-  /// Those, of a segment in a cell.
-  template <class CellOf>
-  void add_tractions(int k, double q, const CellOf& cell_of) {
-    add(k, q, cell_of, [this](int n) { return 0.5 * (traction_on(cracks_, n) + traction_on(cracks_, n + 1)); });
+  /// Those, of a segment.
+  void add_tractions(int k, double q) {
+    add(k, q, [this](int n) { return 0.5 * (traction_on(cracks_, n) + traction_on(cracks_, n + 1)); });
   }
   /// And that of contact.
-  template <class CellOf>
-  void add_contact(int k, double q, const CellOf& cell_of, Vec2 traction) {
-    add(k, q, cell_of, [traction](int) { return traction; });
+  void add_contact(int k, double q, Vec2 traction) {
+    add(k, q, [traction](int) { return traction; });
   }
 
   /// Notes how far behind the tip another crack first cuts the faces.
@@ -70,15 +70,14 @@ class OwnFaces {
   }
 
  private:
-  template <class CellOf, class Traction>
-  void add(int k, double q, const CellOf& cell_of, const Traction& traction) {
-    const double before = task_.other_faces ? cut_at(k, cell_of(k)) : uncut;
+  template <class Traction>
+  void add(int k, double q, const Traction& traction) {
+    const double before = task_.other_faces ? cut_at(k, segments_.cell_of(k)) : uncut;
     const auto work = [&](int n) {
       return n < 0 ? 0 : dot(traction(n), opening_change(n)) * first_length(k) / first_length(n);
     };
-    const double all = before == uncut ? work(k)
-                                       : before * work(uncut_beside(k, -1, cell_of)) +
-                                             (1 - before) * work(uncut_beside(k, 1, cell_of));
+    const double all =
+        before == uncut ? work(k) : before * work(uncut_beside(k, -1)) + (1 - before) * work(uncut_beside(k, 1));
     task_.sums.tractions -= task_.last ? q * all : -q * all;
     if (task_.interaction && before == uncut)
       add_known_opening(k, q, traction(k));
@@ -120,12 +119,11 @@ class OwnFaces {
   }
 
   /// The nearest segment on one side of a cut one that is not, or -1.
-  template <class CellOf>
-  int uncut_beside(int k, int step, const CellOf& cell_of) const {
+  int uncut_beside(int k, int step) const {
     for (int n = k + step; std::abs(n - k) <= 2; n += step) {
       if (n < view_.start[task_.crack] || n + 1 >= view_.start[task_.crack + 1])
         return -1;
-      const int cell = cell_of(n);
+      const int cell = segments_.cell_of(n);
       if (view_.cell_index[cell] >= 0 && cut_at(n, cell) == uncut)
         return n;
     }
@@ -137,6 +135,7 @@ class OwnFaces {
 
   const Cracks& cracks_;
   const SurfaceView& view_;
+  const SegmentsByCell& segments_;
   TipTask& task_;
   std::optional<KnownOpening> known_;  ///< once asked for
 };

@@ -37,15 +37,18 @@ struct JDomain {
   Vec2 tip;
   double reach[4] = {0, 0, 0, 0};  ///< m, from the tip to each edge
   double ramp[4] = {0, 0, 0, 0};   ///< m, q falls from reach - ramp to reach + ramp; at most the reach
+  double steep[4] = {0, 0, 0, 0};  ///< 1/m, one over the ramps
 
   RIVEN_INLINE double outer(int edge) const { return reach[edge] + ramp[edge]; }
   RIVEN_INLINE double inner(int edge) const { return reach[edge] - ramp[edge]; }
 
   /// q = Q(x) R(y) at an offset r from the tip.
   RIVEN_INLINE JWeight at(Vec2 r) const {
-    const int x = r.x > 0 ? right : left, y = r.y > 0 ? top : bottom;
-    const double s = place(std::fabs(r.x), x), t = place(std::fabs(r.y), y), Q = fall(s), R = fall(t);
-    return {Q * R, x, y, (1 - std::fabs(s)) / ramp[x] * R, (1 - std::fabs(t)) / ramp[y] * Q};
+    const bool x = r.x > 0, y = r.y > 0;
+    const double w = x ? steep[right] : steep[left], h = y ? steep[top] : steep[bottom];
+    const double s = place((std::fabs(r.x) - (x ? reach[right] : reach[left])) * w), Q = fall(s);
+    const double t = place((std::fabs(r.y) - (y ? reach[top] : reach[bottom])) * h), R = fall(t);
+    return {Q * R, x ? right : left, y ? top : bottom, (1 - std::fabs(s)) * w * R, (1 - std::fabs(t)) * h * Q};
   }
   RIVEN_INLINE double weight(Vec2 r) const { return at(r).q; }
   /// What the slope towards an edge adds up to over the area: the length of the edge.
@@ -55,8 +58,9 @@ struct JDomain {
 
  private:
   /// From -1, where q begins to fall towards an edge, to 1, where it has become 0.
-  RIVEN_INLINE double place(double r, int edge) const {
-    return std::min(1.0, std::max(-1.0, (r - reach[edge]) / ramp[edge]));
+  RIVEN_INLINE static double place(double s) {
+    const double low = s > -1.0 ? s : -1.0;
+    return low < 1.0 ? low : 1.0;
   }
   RIVEN_INLINE static double fall(double s) { return s < 0 ? 1 - 0.5 * (1 + s) * (1 + s) : 0.5 * (1 - s) * (1 - s); }
 };

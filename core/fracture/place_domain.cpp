@@ -27,6 +27,7 @@ JDomain plain_domain(Vec2 tip, const double reach[4], double h) {
   for (int e = 0; e < 4; ++e) {
     d.reach[e] = reach[e];
     d.ramp[e] = std::min(h, reach[e]);
+    d.steep[e] = 1 / d.ramp[e];
   }
   return d;
 }
