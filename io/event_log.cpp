@@ -7,6 +7,7 @@
 #include <cerrno>
 
 #include "io/atomic_file.hpp"
+#include "io/history.hpp"
 #include "io/tip_report.hpp"
 
 namespace riven {
@@ -43,7 +44,9 @@ EventLog::~EventLog() {
 void EventLog::write(const std::vector<CrackEvent>& events, const Cracks& cracks) {
   for (; written_ < events.size(); ++written_) {
     const CrackEvent& e = events[written_];
-    const auto crack = [&](int c) { return c < 0 ? std::string() : cracks.names[static_cast<std::size_t>(c)]; };
+    const auto crack = [&](int c) {
+      return c < 0 ? std::string() : csv_field(cracks.names[static_cast<std::size_t>(c)]);
+    };
     append(descriptor_, path_,
            fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
                        crack(e.crack), end_name(e.last), name(e.kind), e.place.x, e.place.y, crack(e.other), e.K_I,

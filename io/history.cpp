@@ -14,10 +14,7 @@
 namespace riven {
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A field of a table of comma-separated values (RFC 4180).
-std::string field(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos)
     return text;
   std::string quoted = "\"";
@@ -29,12 +26,14 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
+namespace {
+
 std::string header(const std::vector<HistoryColumn>& columns) {
   std::string line;
   for (const HistoryColumn& c : columns) {
     if (!line.empty())
       line += ',';
-    line += field(c.name + " [" + (c.unit.empty() ? "1" : c.unit) + "]");
+    line += csv_field(c.name + " [" + (c.unit.empty() ? "1" : c.unit) + "]");
   }
   return line + '\n';
 }

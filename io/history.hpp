@@ -8,6 +8,9 @@
 
 namespace riven {
 
+/// A field of a table of comma-separated values (RFC 4180).
+std::string csv_field(const std::string& text);
+
 struct HistoryColumn {
   std::string name;
   std::string unit;  ///< SI; "1" or empty for a pure number

@@ -70,6 +70,18 @@ TEST(ResultsTips, EventsAreWrittenAsTheyHappenAndOnce) {
   std::filesystem::remove(path);
 }
 
+TEST(ResultsTips, NamesWithCommasStayOneField) {
+  const auto path = std::filesystem::temp_directory_path() / "riven_events_names.csv";
+  Cracks cracks = two_cracks();
+  cracks.names[0] = "left, \"old\"";
+  {
+    EventLog log(path);
+    log.write({CrackEvent{}}, cracks);
+  }
+  EXPECT_NE(lines_of(path).at(1).find(",\"left, \"\"old\"\"\",first,"), std::string::npos);
+  std::filesystem::remove(path);
+}
+
 TEST(ResultsTips, EventsThatCannotBeWrittenAreAFileError) {
   try {
     EventLog log("no/such/folder/events.csv");
