@@ -8,11 +8,15 @@
 // of it, as a law that only presses bears nothing behind a tip that is about to open.
 // Of the target crack's own faces those in line with its tip have no share of the energy; what they bear is counted by
 // how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From `bent` on
-// they are like those of other cracks.
+// they are like those of other cracks; only that their energy is that of the fitted tension along them. The particles
+// that a tip has passed keep stresses that cancel on the grid: their energies, which are squares, do not, and J of a
+// tip that has turned by one segment was 7 % low, and swung between -70 and 60 J/m^2 once it rested. Next to a tip the
+// tension is that of the first segment clear of it.
 // A segment whose ends another crack has drawn apart spans that crack's opening, and has no solid beside it.
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "kernels/face_fields.hpp"
@@ -41,7 +45,7 @@ class FaceIntegral {
     for (int j = lower[1]; j <= upper[1]; ++j)
       segments_.each_of_row(j, lower[0], upper[0], [&](int k, int cell) { list(k, cell, segments); });
     for (const Segment& s : segments)
-      if (s.turn >= straight)
+      if (s.turn > bent)
         fields_.ask_for_energies();
     for (const Segment& s : segments) {
       if (s.crack == task_.crack)
@@ -138,16 +142,34 @@ class FaceIntegral {
       return;
     for (const Side side : {Side::above, Side::below}) {
       const double out = side == Side::above ? -s.q : s.q;  // of the solid
-      FaceValues open;
       if (meeting.holds) {
         const double* E = meeting.face[side == Side::below].data() + face_eshelby;
         const Vec2 n = (out * s.length) * s.normal;
         task_.sums.faces += Vec2{E[0] * n.x + E[1] * n.y, E[2] * n.x + E[3] * n.y};
-      } else if (fields_.at(middle_of_face(s.k, side), s.crack, s.middle, s.normal, side, open)) {
-        // carried on past a corner, where it ends, energy could become negative
-        task_.sums.faces += (out * std::max(0.0, open[face_energy])) * turned(first);
+      } else if (const auto energy = s.crack == task_.crack ? own_energy(s, side) : energy_beside(s, side)) {
+        task_.sums.faces += (out * *energy) * turned(first);
       }
     }
+  }
+
+  /// Energy next to an open face, per first volume; none where no particle tells.
+  std::optional<double> energy_beside(const Segment& s, Side side) {
+    FaceValues face;
+    if (!fields_.at(middle_of_face(s.k, side), s.crack, s.middle, s.normal, side, face))
+      return std::nullopt;
+    return std::max(0.0, face[face_energy]);  // carried on past a corner, where it ends, it could become negative
+  }
+
+  /// That next to a face of the tip's own crack, of the tension t along it, which is all that the solid bears there:
+  /// t^2 / 2E.
+  std::optional<double> own_energy(const Segment& s, Side side) {
+    const Segment at = clear_of_tip(s);
+    FaceValues face;
+    if (!fields_.at(middle_of_face(at.k, side), at.crack, at.middle, at.normal, side, face))
+      return std::nullopt;
+    const double *stress = face.data() + face_stress, x = at.normal.x, y = at.normal.y;
+    const double tension = stress[0] * y * y + stress[1] * x * x - 2 * stress[2] * x * y;
+    return tension * tension / (2 * task_.solid->E);
   }
 
   /// Has contact acted on one of the four nodes around a place?
