@@ -1,8 +1,11 @@
 // Which ends of cracks are tips: inside a body, on no border, on no other crack.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
 #include <utility>
 
+#include "core/fracture/tip_places.hpp"
 #include "core/plan/plan.hpp"
 #include "core/state/make_tips.hpp"
 
@@ -88,6 +91,24 @@ TEST(Tips, ArePlannedWhereJOrGrowthIsAskedFor) {
   EXPECT_TRUE(make_plan(s).growth);
   s.cracks[0].grows = false;
   EXPECT_FALSE(make_plan(s).fracture);
+}
+
+TEST(TipPlaces, FindWhatIsNearAndNothingElse) {
+  std::vector<Vec2> at;
+  at.reserve(201);
+  for (int k = 0; k < 200; ++k)
+    at.push_back({std::fmod(k * 0.618, 1.0), std::fmod(k * 0.414, 1.0)});
+  at.push_back(at.front());  // two tips may lie on each other
+  const TipPlaces places(at);
+  for (const double far : {0.01, 0.1, 2.0})
+    for (const Vec2 x : {at[0], at[17], Vec2{0.5, 0.5}, Vec2{-1, 0.5}, Vec2{1.05, 1.05}}) {
+      std::multiset<size_t> found, near;
+      places.each_near(x, far, [&](size_t k) { found.insert(k); });
+      for (size_t k = 0; k < at.size(); ++k)
+        if (std::fabs(at[k].x - x.x) < far && std::fabs(at[k].y - x.y) < far)
+          near.insert(k);
+      EXPECT_EQ(found, near);
+    }
 }
 
 }  // namespace
