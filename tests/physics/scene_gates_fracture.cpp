@@ -106,7 +106,8 @@ TEST(FractureTables, DISABLED_CrackAcrossOnQuarterMillimetreCells) {
 
 /// The references are those of small strains. Finite elements of the same plate at finite strains, with the same law,
 /// give 0.989 of them without V and 0.965, 0.961, 1.016, 1.004 and 0.993 at b/w = 0.4, 0.46, 0.54, 0.6 and 0.7 under
-/// the whole load, and the same within 0.2 % under a tenth of it. So a tenth shows what is the method's own error.
+/// the whole load. Under a tenth of it they give the references within 0.2 % (without V, at 0.54 and 0.6), so that a
+/// tenth shows what is the method's own error.
 void expect_crossings_at_small_load(std::vector<Crossing> small, std::vector<std::string> settings, double most,
                                     double rms) {
   for (Crossing& c : small)
