@@ -15,10 +15,11 @@
 namespace riven {
 
 /// What is asked for on a face, and where in FaceValues it begins.
-inline constexpr int face_stress = 0;                     ///< [xx yy xy], Pa
-inline constexpr int face_energy = 3;                     ///< strain and kinetic energy per first volume, Pa
-inline constexpr int face_eshelby = 4;                    ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
-inline constexpr int face_stresses = 3, face_values = 8;  ///< how many come before the energy, and in all
+inline constexpr int face_stress = 0;                  ///< [xx yy xy], Pa
+inline constexpr int face_kinetic = 3;                 ///< kinetic energy per first volume, Pa
+inline constexpr int face_energy = 4;                  ///< strain and kinetic energy per first volume, Pa
+inline constexpr int face_eshelby = 5;                 ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
+inline constexpr int face_cheap = 4, face_values = 9;  ///< how many need no strain energy, and in all
 using FaceValues = std::array<double, face_values>;
 
 /// Sums for the fits of one velocity field of one node, for its first values; offsets are from the node, in cells.

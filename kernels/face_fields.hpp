@@ -38,7 +38,7 @@ class FaceFields {
     return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
   }
 
-  /// Before any values are: energies and Eshelby's tensor are left out otherwise, being dear.
+  /// Before any values are: strain energies and Eshelby's tensor are left out otherwise, being dear.
   void ask_for_energies() { energies_ = true; }
 
   struct Cells {
@@ -102,7 +102,7 @@ class FaceFields {
       const FieldFit& fit = fits(ni, nj)[static_cast<size_t>(field)];
       if (!(fit.area > least_area))
         continue;
-      fit.evaluate(r, N * fit.area, energies_ ? face_values : face_stresses, values);
+      fit.evaluate(r, N * fit.area, energies_ ? face_values : face_cheap, values);
       area += N * fit.area;
     }
   }
@@ -123,7 +123,7 @@ class FaceFields {
     if (energies_)
       sum_values<face_values>(I, J, fits);
     else
-      sum_values<face_stresses>(I, J, fits);
+      sum_values<face_cheap>(I, J, fits);
   }
   template <size_t Count>
   void sum_values(int I, int J, Fits& fits) {
@@ -218,11 +218,13 @@ class FaceFields {
     seen.values[face_stress] = xx;
     seen.values[face_stress + 1] = yy;
     seen.values[face_stress + 2] = xy;
+    const double kinetic = 0.5 * density * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]);
+    seen.values[face_kinetic] = kinetic * state.J;
     if (!energies_)
       return;
     const auto& F = state.F;
     const Mat2<double> H = task_.gradient(F);
-    const double W = density * (law_.of(i).energy(state) + 0.5 * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]));
+    const double W = density * law_.of(i).energy(state) + kinetic;
     seen.values[face_energy] = W * state.J;
     seen.values[face_eshelby] = W * F.xx - (xx * H.xx + xy * H.yx);
     seen.values[face_eshelby + 1] = W * F.yx - (xy * H.xx + yy * H.yx);

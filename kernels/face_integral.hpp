@@ -8,10 +8,10 @@
 // of it, as a law that only presses bears nothing behind a tip that is about to open.
 // Of the target crack's own faces those in line with its tip have no share of the energy; what they bear is counted by
 // how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From `bent` on
-// they are like those of other cracks; only that their energy is that of the fitted tension along them. The particles
-// that a tip has passed keep stresses that cancel on the grid: their energies, which are squares, do not, and J of a
-// tip that has turned by one segment was 7 % low, and swung between -70 and 60 J/m^2 once it rested. Next to a tip the
-// tension is that of the first segment clear of it.
+// they are like those of other cracks; only that their strain energy is that of the fitted tension along them. The
+// particles that a tip has passed keep stresses that cancel on the grid: their energies, which are squares, do not, and
+// would make J of a tip that has turned by one segment 7 % low. Next to a tip the tension is that of the first segment
+// clear of it.
 // A segment whose ends another crack has drawn apart spans that crack's opening, and has no solid beside it.
 #pragma once
 #include <algorithm>
@@ -160,8 +160,8 @@ class FaceIntegral {
     return std::max(0.0, face[face_energy]);  // carried on past a corner, where it ends, it could become negative
   }
 
-  /// That next to a face of the tip's own crack, of the tension t along it, which is all that the solid bears there:
-  /// t^2 / 2E.
+  /// That next to a face of the tip's own crack: kinetic, and of the tension t along it, which is all that the solid
+  /// bears there, t^2 / 2E.
   std::optional<double> own_energy(const Segment& s, Side side) {
     const Segment at = clear_of_tip(s);
     FaceValues face;
@@ -169,7 +169,7 @@ class FaceIntegral {
       return std::nullopt;
     const double *stress = face.data() + face_stress, x = at.normal.x, y = at.normal.y;
     const double tension = stress[0] * y * y + stress[1] * x * x - 2 * stress[2] * x * y;
-    return tension * tension / (2 * task_.solid->E);
+    return std::max(0.0, face[face_kinetic]) + tension * tension / (2 * task_.solid->E);
   }
 
   /// Has contact acted on one of the four nodes around a place?
