@@ -16,9 +16,35 @@ constexpr double front = seen_ahead;
 constexpr double free_share = 0.66;
 /// Cells from the crack's line within which its particles and nodes see each other across it.
 constexpr double beside = 1.5;
+/// Least share of a node's weight at which faces that have moved away from it are taken to feel it.
+constexpr double least_felt = 0.1;
 
 double share_at(double s) {
   return free_share * (1 - std::sqrt(std::max(0.0, 1 - std::max(0.0, front - s))));
+}
+
+/// Half the opening of a tip's crack at `behind` m from its tip, m; 0 ahead of it and where the faces overlap. `t`: out
+/// of the tip along the crack.
+double half_opening(const Cracks& cracks, const Tip& tip, Vec2 t, double behind) {
+  const int end = cracks.end_point(tip.crack, tip.last), other = cracks.end_point(tip.crack, !tip.last);
+  const int step = tip.last ? -1 : 1;
+  const Vec2 across = turned(tip.last ? t : -t);  // towards above
+  double last = 0, from = 0;
+  for (int k = end + step; behind > 0 && k != other + step; k += step) {
+    const double to = norm(cracks.plane[k] - cracks.plane[end]);
+    const double here = 0.5 * std::max(0.0, dot(cracks.upper[k] - cracks.lower[k], across));
+    if (to >= behind && to > from)
+      return last + (here - last) * (behind - from) / (to - from);
+    last = here;
+    from = to;
+  }
+  return last;
+}
+
+/// The weight at a face of a node beyond it, over that while the crack is shut: the node lies d from the crack's line,
+/// the face has moved away from that by g, both in cells.
+double felt(double g, double d) {
+  return d < 1 - least_felt ? std::max(least_felt, 1 - g / (1 - d)) : 1;
 }
 
 template <class Real>
@@ -51,9 +77,10 @@ TipBridge find_bridge(const State<Real, 2>& state, const Tip& tip) {
         if (!(state.grid.mass[near] > 0) || !(state.grid.mass[across] > 0))
           continue;
         const bool near_above = n.side[m] == Side::below;
-        const double share = s > front - 1 ? share_at(s) : -1;
+        const double at_faces = felt(half_opening(cracks, tip, t, -s * l.h) / l.h, std::fabs(cross(r, t)));
         if (bridge.count < TipBridge::most)
-          bridge.pair[bridge.count++] = {node, near_above ? near : across, near_above ? across : near, share};
+          bridge.pair[bridge.count++] = {node, near_above ? near : across, near_above ? across : near,
+                                         s > front - 1 ? share_at(s) / at_faces : -at_faces};
         if (n.crack[1 - m] < 0)
           break;
       }
@@ -69,7 +96,7 @@ class Bridging {
 
   double across(TipBridge& bridge) {
     Vec2 behind, sum;
-    double mass = 0, all = 0;
+    double mass = 0, all = 0, at_faces = 0;
     for (int k = 0; k < bridge.count; ++k) {
       const BridgedPair& p = bridge.pair[k];
       const double ma = motion_.mass[p.above], mb = motion_.mass[p.below];
@@ -80,6 +107,7 @@ class Bridging {
       if (p.share < 0) {
         behind += reduced * jump;
         mass += reduced;
+        at_faces -= p.share * reduced;
       } else {
         sum += (p.share * reduced) * jump;
         all += p.share * p.share * reduced;
@@ -87,11 +115,13 @@ class Bridging {
     }
     if (!(mass > 0))
       return 0;
-    const Vec2 W = (behind + sum) * (1 / (mass + all)), shift = W - behind * (1 / mass);
+    at_faces /= mass;
+    const Vec2 W = (behind + at_faces * sum) * (1 / (mass + at_faces * at_faces * all));
+    const Vec2 shift = W - behind * (1 / mass);
     double work = 0;
     for (int k = 0; k < bridge.count; ++k) {
       BridgedPair& p = bridge.pair[k];
-      const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : p.share * W - jump_[k]);
+      const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : (at_faces * p.share) * W - jump_[k]);
       if constexpr (stage == ContactStage::after)
         p.force = impulse * (1 / dt_);
       work += push(p.above, impulse) + push(p.below, -impulse);

@@ -13,8 +13,8 @@ template <class Real>
 void check_particles(const State<Real, 2>&);
 
 /// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than `limit` of the largest
-/// energy.
+/// energy. What contact took is left out of the sinks unless it `reaches_particles` (Energy::contact).
 template <class Real>
-void check_energy(const State<Real, 2>&, double limit);
+void check_energy(const State<Real, 2>&, double limit, bool reaches_particles);
 
 }  // namespace riven

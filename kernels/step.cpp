@@ -157,7 +157,7 @@ void Simulation::step() {
 
 void Simulation::take_stock() {
   tally(space, plan, state);
-  check_energy(state, scene.limits.energy_growth);
+  check_energy(state, scene.limits.energy_growth, !(plan.higher_order() && plan.order > 1));
 }
 
 Vec2 Simulation::gravity() const {

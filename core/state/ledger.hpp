@@ -9,11 +9,14 @@ struct Energy {
   double cohesive = 0;             ///< stored in cohesive laws, to be given back
   double external_work = 0;        ///< done on the bodies by loads, body forces, prescribed motion
   double damping = 0;              ///< taken by grid and particle damping
-  double contact = 0;              ///< taken by contact (friction and impact)
-  double fracture = 0;             ///< released by crack growth, J times new area; see below
-  double debonding = 0;            ///< taken by damage of cohesive laws
-  double first = 0;                ///< total at the start
-  double largest = 0;              ///< largest total, or work done, so far
+  /// Taken by contact (friction and impact) on the grid. XPIC and FMPM of a higher order return some of it, as they
+  /// give particles more of a velocity that varies within a cell than the grid has: a gain in numerical(), though the
+  /// total stays.
+  double contact = 0;
+  double fracture = 0;   ///< released by crack growth, J times new area; see below
+  double debonding = 0;  ///< taken by damage of cohesive laws
+  double first = 0;      ///< total at the start
+  double largest = 0;    ///< largest total, or work done, so far
 
   double total() const { return kinetic + strain + cohesive; }
   /// What is left over: energy that the discretisation made (> 0) or lost. What a crack takes by growing is in here as

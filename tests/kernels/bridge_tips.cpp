@@ -86,6 +86,34 @@ TEST(BridgeTips, LetNodesPartByAShareOfThoseBehind) {
     }
 }
 
+/// Faces that have moved apart feel less of the nodes beyond them, the more the further these are from them.
+TEST(BridgeTips, LetNodesPartByWhatOpenFacesFeel) {
+  const double opening = 0.3;  // half of it a cell behind the tip, in cells
+  const Vec2 tip{0.1, 0};
+  Square s(tip, 0);
+  Cracks& c = s.m.state.cracks;
+  for (int k = 0; k < c.points(); ++k) {
+    const Vec2 up{0, opening * std::max(0., tip.x - c.plane[k].x)};
+    c.upper[k] += up;
+    c.lower[k] -= up;
+  }
+  list_bridges(s.space, s.m.state, s.bridges);
+  const TipBridge& bridge = s.bridges[0];
+  bridge_tips(s.m.state, s.bridges, ContactStage::before);
+  const auto pair_at = [&](Vec2 x) -> const BridgedPair& {
+    for (const BridgedPair& p : bridge.pair)
+      if (norm(s.m.state.grid.lattice.position(p.node % s.m.state.grid.lattice.nx, p.node / s.m.state.grid.lattice.nx) -
+               x) < 1e-9)
+        return p;
+    throw std::logic_error("no such node");
+  };
+  // nodes on the crack's line, 0.1 and 1.1 cells behind the tip
+  const double near = 1 - opening * 0.1, far = 1 - opening * 1.1, shut = 0.66 * (1 - std::sqrt(1 - 0.5));
+  EXPECT_NEAR(-pair_at({-1, 0}).share, far, 1e-12);
+  EXPECT_NEAR(pair_at({0, 0}).share, shut / near, 1e-12);
+  EXPECT_LT(norm(s.jump(pair_at({0, 0})) - shut * (far / near) * s.jump(pair_at({-1, 0}))), 1e-12);
+}
+
 TEST(BridgeTips, KeepMomentumAndLoseEnergyOnce) {
   for (const Vec2 tip : places)
     for (const double angle : {0., 0.4, 2.5}) {

@@ -145,6 +145,30 @@ TEST(Stops, NameTheFastestParticleWhenEnergyGrowsFromNothing) {
   }
 }
 
+/// With a higher order of FMPM what contact took on the grid may still be in the particles: the total tells.
+TEST(Stops, LeaveContactOutOfGrowthWhereItMayNotReachParticles) {
+  for (const int order : {1, 2}) {
+    Scene s = resting_block();
+    s.bodies[0].spin = 1;
+    s.transfer = Transfer::fmpm;
+    s.order = order;
+    const exec::Space space;
+    Simulation m(s, space);
+    m.step();
+    Energy& e = m.state.ledger.energy;
+    m.take_stock();
+    e.contact = 0.5 * e.total();
+    if (order == 1)
+      EXPECT_THROW(m.take_stock(), Error);
+    else
+      EXPECT_NO_THROW(m.take_stock());
+    for (long i = 0; i < m.state.particles.count(); ++i)
+      for (auto& v : m.state.particles.v)
+        v[i] *= 1.1;
+    EXPECT_THROW(m.take_stock(), Error);
+  }
+}
+
 /// Exit code and what the program wrote to its error stream.
 struct Outcome {
   int code;
