@@ -37,8 +37,11 @@ void remove_from(const fs::path& folder, int first_frame) {
     }
     for (const fs::path& path : old)
       remove(path);
-    for (const char* ending : {".vtkhdf", ".pvd"})
-      remove(folder / (prefix + ending));
+    for (const char* ending : {".vtkhdf", ".pvd"}) {
+      const fs::path whole = folder / (prefix + ending);
+      remove(whole);
+      remove(AtomicFile::temporary_name(whole));
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/exec/parallel.hpp"
 #include "io/crack_opening.hpp"
 #include "io/particle_stress.hpp"
 
@@ -33,15 +34,23 @@ double component(const CauchyStress& s, const Probe& p) {
   return p.axis != p.axis2 ? s.xy : p.axis == 0 ? s.xx : s.yy;
 }
 
+/// Volume times Cauchy stress is mass times what particles keep, Kirchhoff stress over first density.
 double mean_stress(const Simulation& m, const Probe& probe) {
-  double sum = 0, volume = 0;
-  const ParticleStress stress(m.state.particles, m.scene);
-  for (long i = 0; i < m.state.particles.count(); ++i) {
-    const double v = stress.volume(i);
-    sum += v * component(stress.cauchy(i), probe);
-    volume += v;
-  }
-  return sum / volume;
+  struct Sums {
+    double stress = 0, volume = 0;
+    Sums& operator+=(const Sums& o) {
+      stress += o.stress;
+      volume += o.volume;
+      return *this;
+    }
+  };
+  const auto& p = m.state.particles;
+  const ParticleStress of(p, m.scene);
+  const auto& kept = p.stress[probe.axis != probe.axis2 ? 2 : probe.axis];
+  const Sums sums = exec::parallel_reduce<Sums>(m.space, "probes", p.count(), [&](long i) {
+    return Sums{p.mass[i] * kept[i], of.volume(i)};
+  });
+  return sums.stress / sums.volume;
 }
 
 double read_one(const Simulation& m, const Probe& probe, int target) {

@@ -155,6 +155,20 @@ TEST(ResultsFailures, ADamagedFrameIsNamed) {
 }
 
 // A process that writes frames and history as fast as it can is killed at some moment, several times.
+TEST(ResultsFailures, ANewRunClearsAwayWhatAKillMayLeave) {
+  const sample::Folder folder;
+  std::filesystem::create_directories(folder / "frames");
+  for (const std::string prefix : {"particles", "cracks"})
+    for (const std::string& name :
+         {"." + prefix + ".pvd.part", "." + prefix + ".vtkhdf.part", "frames/." + prefix + "_000004.vtkhdf.part",
+          "frames/." + prefix + "_000004.vtp.part"})
+      std::ofstream(folder / name) << "half";
+  ASSERT_EQ(sample::leftovers(folder.path()), 8);
+  const Scene scene = sample::scene();
+  FrameWriter anew(folder.path(), scene);
+  EXPECT_EQ(sample::leftovers(folder.path()), 0);
+}
+
 TEST(ResultsFailures, AKilledRunLeavesEveryFinishedFrameReadable) {
   const Scene scene = sample::scene();
   for (int attempt = 0; attempt < 6; ++attempt) {
