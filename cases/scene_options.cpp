@@ -19,14 +19,15 @@ void SceneOptions::add_to(CLI::App& command) {
 
 Scene SceneOptions::read() const {
   std::string path = scene;
-  if (!fs::exists(path)) {
+  if (const bool folder = fs::is_directory(path); folder || !fs::exists(path)) {
     const std::optional<fs::path> shipped = shipped_scene(scene);
-    if (!shipped) {
+    if (!shipped && !folder) {
       const std::string close = nearest(scene, shipped_names());
       fail({Exit::bad_input, "there is no such file and no shipped scene of that name", "", scene,
             "a .toml file, or a name that `riven cases` lists", close.empty() ? "" : "did you mean '" + close + "'?"});
     }
-    path = shipped->string();
+    if (shipped)  // results of an earlier run may lie in a folder of that name
+      path = shipped->string();
   }
   Scene s = read_scene(path, set);
   if (!exec.empty())

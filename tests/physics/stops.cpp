@@ -264,5 +264,18 @@ TEST(StopsOfTheProgram, BadInputIsTwoAndAFolderThatCannotBeIsFour) {
   EXPECT_TRUE(holds(file.errors, "inside")) << file.errors;
 }
 
+TEST(StopsOfTheProgram, AFolderNamedLikeAShippedSceneIsNoScene) {
+  const sample::Folder folder;
+  std::filesystem::create_directories(folder / "two_disks");
+  std::filesystem::create_directories(folder / "results");
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const Outcome shipped = riven("check two_disks", folder), other = riven("check results", folder);
+  std::filesystem::current_path(here);
+  EXPECT_EQ(shipped.code, 0) << shipped.errors;
+  EXPECT_EQ(other.code, 4);
+  EXPECT_TRUE(holds(other.errors, "not a file")) << other.errors;
+}
+
 }  // namespace
 }  // namespace riven
