@@ -6,6 +6,12 @@
 
 namespace riven {
 
+/// The cell of a place X, in cells from the origin of the lattice, as the shape function counts cells.
+template <class Shape>
+RIVEN_INLINE int cell_at(const Lattice& lattice, Vec2 X) {
+  return Shape::cell(X.y) * lattice.nx + Shape::cell(X.x);
+}
+
 /// f(cell) for the cells whose particles may see a node.
 template <class F>
 void each_cell_seeing(const Lattice& lattice, int node, const F& f) {

@@ -10,6 +10,7 @@
 #include "core/fracture/j_domain.hpp"
 #include "core/state/state.hpp"
 #include "kernels/cell_rows.hpp"
+#include "kernels/cells_around.hpp"
 #include "kernels/crack_faces.hpp"
 #include "kernels/j_integral.hpp"
 #include "kernels/law_state.hpp"
@@ -35,7 +36,7 @@ class FaceFields {
 
   int cell_of(Vec2 x) const {
     const Lattice& l = s_.grid.lattice;
-    return Shape::cell((x.y - l.origin.y) / l.h) * l.nx + Shape::cell((x.x - l.origin.x) / l.h);
+    return cell_at<Shape>(l, (x - l.origin) * (1 / l.h));
   }
 
   /// Before any values are: strain energies and Eshelby's tensor are left out otherwise, being dear.

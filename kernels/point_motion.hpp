@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/math/shape.hpp"
+#include "kernels/cells_around.hpp"
 #include "kernels/surface_field.hpp"
 #include "kernels/surface_velocity.hpp"
 
@@ -94,9 +95,7 @@ struct Extrapolation {
     const Around a[2] = {around(x[0]), around(x[1])};
     if (!on_grid(a[0]) || !on_grid(a[1]))
       return;
-    const auto cell = [&](Vec2 at) {
-      return Shape::cell((at.y - l.origin.y) * inv_h) * l.nx + Shape::cell((at.x - l.origin.x) * inv_h);
-    };
+    const auto cell = [&](Vec2 at) { return cell_at<Shape>(l, (at - l.origin) * inv_h); };
     SurfacePoint s[2] = {{point, Side::above, x[0], cell(x[0])}, {point, Side::below, x[1], cell(x[1])}};
     const bool together = a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base;
     int slot[width * width][2];

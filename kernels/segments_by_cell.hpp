@@ -5,6 +5,7 @@
 
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
+#include "kernels/cells_around.hpp"
 
 namespace riven {
 
@@ -23,7 +24,7 @@ class SegmentsByCell {
     for (int c = 0; c < cracks.count(); ++c)
       for (int k = cracks.start[c]; k + 1 < cracks.start[c + 1]; ++k) {
         const Vec2 X = (0.5 * (cracks.plane[k] + cracks.plane[k + 1]) - l.origin) * inv;
-        cell_[static_cast<size_t>(k)] = Shape::cell(X.y) * l.nx + Shape::cell(X.x);
+        cell_[static_cast<size_t>(k)] = cell_at<Shape>(l, X);
         list_.push_back({cell_[static_cast<size_t>(k)], k});
       }
     std::sort(list_.begin(), list_.end());
