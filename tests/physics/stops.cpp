@@ -183,7 +183,7 @@ Outcome riven(const std::string& arguments, const sample::Folder& folder) {
 
 /// A block that flies at `speed` towards the wall of its grid, 50 mm away.
 std::string write_scene(const sample::Folder& folder, const std::string& speed, const std::string& more = "") {
-  const std::string path = (folder / "scene.toml").string();
+  std::string path = (folder / "scene.toml").string();
   std::ofstream(path) << R"toml(title = "flying block"
 [solver]
 time = "40 ms"
