@@ -48,11 +48,10 @@ double felt(double g, double d) {
 }
 
 template <class Real>
-TipBridge find_bridge(const State<Real, 2>& state, const Tip& tip) {
+void find_bridge(const State<Real, 2>& state, const Tip& tip, TipBridge& bridge) {
   const CrackFields& fields = state.fields;
   const Cracks& cracks = state.cracks;
   const Lattice& l = state.grid.lattice;
-  TipBridge bridge;
   const Vec2 end = cracks.plane[cracks.end_point(tip.crack, tip.last)];
   const Vec2 along = end - cracks.plane[cracks.next_to_end(tip.crack, tip.last)];
   const Vec2 t = along * (1 / norm(along)), c = (end - l.origin) * (1 / l.h);
@@ -85,7 +84,6 @@ TipBridge find_bridge(const State<Real, 2>& state, const Tip& tip) {
           break;
       }
     }
-  return bridge;
 }
 
 /// Brings the jumps around one tip to what the bridge asks for.
@@ -156,11 +154,13 @@ double run(State<Real, 2>& s, std::vector<TipBridge>& bridges) {
 
 template <class Real>
 void list_bridges(const exec::Space& space, const State<Real, 2>& s, std::vector<TipBridge>& bridges) {
-  bridges.assign(s.tips.size(), {});
+  bridges.resize(s.tips.size());
   exec::parallel_tasks(space, "bridge tips", static_cast<long>(s.tips.size()), [&](long k) {
     const Tip& tip = s.tips[static_cast<size_t>(k)];
+    TipBridge& bridge = bridges[static_cast<size_t>(k)];
+    bridge.count = 0;
     if (tip.open)
-      bridges[static_cast<size_t>(k)] = find_bridge(s, tip);
+      find_bridge(s, tip, bridge);
   });
 }
 
