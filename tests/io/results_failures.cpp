@@ -154,7 +154,6 @@ TEST(ResultsFailures, ADamagedFrameIsNamed) {
   EXPECT_EQ(sample::leftovers(folder.path()), 0);
 }
 
-// A process that writes frames and history as fast as it can is killed at some moment, several times.
 TEST(ResultsFailures, ANewRunClearsAwayWhatAKillMayLeave) {
   const sample::Folder folder;
   std::filesystem::create_directories(folder / "frames");
@@ -169,6 +168,7 @@ TEST(ResultsFailures, ANewRunClearsAwayWhatAKillMayLeave) {
   EXPECT_EQ(sample::leftovers(folder.path()), 0);
 }
 
+// A process that writes frames and history as fast as it can is killed at some moment, several times.
 TEST(ResultsFailures, AKilledRunLeavesEveryFinishedFrameReadable) {
   const Scene scene = sample::scene();
   for (int attempt = 0; attempt < 6; ++attempt) {
