@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/exec/parallel.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/fracture/opening.hpp"
 #include "core/fracture/place_domain.hpp"
@@ -35,8 +36,11 @@ Vec2 position_of(const Cracks& cracks, const Tip& tip) {
 /// One tip on its way to J.
 struct Due {
   Tip* tip;
-  double most[4];  ///< m, the contour as asked for, or as drawn in
-  bool adapted = false, settled = false;
+  double most[4];           ///< m, the contour as asked for, or as drawn in
+  bool adapted = false;     ///< the contour leaves out another tip
+  bool in_cell = false;     ///< which is too near
+  bool settled = false;     ///< all of its edges lie in the solid
+  bool to_draw_in = false;  ///< some do not, and have room to be drawn in
 };
 
 class JSearch {
@@ -60,32 +64,40 @@ class JSearch {
       places.push_back(position_of(s_.cracks, t));
     places_ = TipPlaces(std::move(places));
     while (!due.empty()) {
-      std::vector<TipTask> tasks;
-      tasks.reserve(due.size());
-      for (Due& d : due)
-        tasks.push_back(place(d));
+      std::vector<TipTask> tasks(due.size());
+      each("contours", due.size(), [&](size_t k) { tasks[k] = place(due[k]); });
       sum_around_tips(m_.space, m_.plan, s_, tasks);
-      for (TipTask& task : tasks)
-        add_bridges(s_, m_.bridges, places_, task);
-      std::vector<Due> again;
-      for (size_t k = 0; k < due.size(); ++k)
-        if (draw_in(due[k], tasks[k]))
-          again.push_back(due[k]);
-        else
+      each("J to K", due.size(), [&](size_t k) {
+        add_bridges(s_, m_.bridges, places_, tasks[k]);
+        draw_in(due[k], tasks[k]);
+        if (!due[k].to_draw_in)
           settle(due[k], tasks[k]);
-      due.swap(again);
+      });
+      for (size_t k = 0; k < due.size(); ++k)
+        note(due[k], tasks[k]);
+      std::erase_if(due, [](const Due& d) { return !d.to_draw_in; });
     }
   }
 
  private:
-  TipTask place(Due& d) {
+  /// f(k) for k in [0, n), some tips at a time, as one alone is too little for a thread to be woken for.
+  template <class F>
+  void each(const char* label, size_t n, const F& f) const {
+    constexpr size_t block = 16;
+    exec::parallel_tasks(m_.space, label, static_cast<long>((n + block - 1) / block), [&](long b) {
+      const size_t first = static_cast<size_t>(b) * block, last = std::min(n, first + block);
+      for (size_t k = first; k < last; ++k)
+        f(k);
+    });
+  }
+
+  TipTask place(Due& d) const {
     const Tip& tip = *d.tip;
     const FractureRules& rules = m_.scene.fracture;
     const Vec2 at = position_of(s_.cracks, tip);
     const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others(tip));
     d.adapted = placed.adapted;
-    if (placed.in_cell)
-      count(m_.fracture.in_cell, m_.fracture.place[0], at);
+    d.in_cell = placed.in_cell;
     TipTask task;
     task.domain = placed.domain;
     task.crack = tip.crack;
@@ -104,7 +116,7 @@ class JSearch {
   }
 
   /// The other tips, where the contour is to leave them out.
-  std::vector<Vec2> others(const Tip& tip) {
+  std::vector<Vec2> others(const Tip& tip) const {
     std::vector<Vec2> list;
     if (m_.scene.fracture.method != JMethod::fijc_adaptive)
       return list;
@@ -116,11 +128,11 @@ class JSearch {
     return list;
   }
 
-  /// True when an edge of the contour lies outside of the solid and there is room to draw it in by a cell.
-  bool draw_in(Due& d, const TipTask& task) {
+  /// Draws those edges of the contour that lie outside of the solid in by a cell, where there is room.
+  void draw_in(Due& d, const TipTask& task) const {
     const double h = m_.scene.cell;
-    bool again = false;
     d.settled = true;
+    d.to_draw_in = false;
     for (int e = 0; e < 4; ++e) {
       const double filled = task.sums.filled[e];
       if (filled >= least_filled || (filled >= least_filled_across && crosses(task, *d.tip, e)))
@@ -128,12 +140,9 @@ class JSearch {
       d.settled = false;
       if (task.domain.reach[e] > 1.5 * h) {
         d.most[e] = std::max(h, task.domain.reach[e] - h);
-        again = true;
+        d.to_draw_in = true;
       }
     }
-    if (again)
-      count(m_.fracture.drawn_in, m_.fracture.place[1], task.domain.tip);
-    return again;
   }
 
   /// Does the tip's own crack pass the band of an edge?
@@ -148,7 +157,20 @@ class JSearch {
     return false;
   }
 
-  void settle(const Due& d, const TipTask& task) {
+  void note(const Due& d, const TipTask& task) {
+    if (d.in_cell)
+      count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
+    if (d.to_draw_in) {
+      count(m_.fracture.drawn_in, m_.fracture.place[1], task.domain.tip);
+      return;
+    }
+    if (!d.settled)
+      count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
+    ++m_.fracture.evaluations;
+    m_.fracture.crossed += task.sums.crossed;
+  }
+
+  void settle(const Due& d, const TipTask& task) const {
     Tip& tip = *d.tip;
     const TipSums& sums = task.sums;
     const Vec2 J = sums.J + sums.inertia + sums.faces;
@@ -161,10 +183,6 @@ class JSearch {
     tip.sound = d.settled;
     for (int e = 0; e < 4; ++e)
       tip.reach[e] = task.domain.reach[e] / m_.scene.cell;
-    if (!d.settled)
-      count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
-    ++m_.fracture.evaluations;
-    m_.fracture.crossed += sums.crossed;
     share(tip, task);
   }
 
