@@ -38,16 +38,23 @@ class FaceIntegral {
 
   void add() {
     // half a cell more, as B-splines count cells from mid-cell to mid-cell; behind the tip its own faces are looked at
-    // as far as their opening is
-    const auto [lower, upper] = fields_.cells_of_domain(0.5, 5);
-    thread_local std::vector<Segment> segments;
-    segments.clear();
-    for (int j = lower[1]; j <= upper[1]; ++j)
-      segments_.each_of_row(j, lower[0], upper[0], [&](int k, int cell) { list(k, cell, segments); });
-    for (const Segment& s : segments)
+    // as far as their opening is, and what may cut these lies around
+    const auto cells = fields_.cells_of_domain(0.5, 5);
+    const int around = static_cast<int>(std::ceil(OwnFaces::reach() * segments_.longest() / h_));
+    thread_local Lists lists;
+    lists.segments.clear();
+    lists.own.clear();
+    for (int j = cells.lower[1] - around; j <= cells.upper[1] + around; ++j)
+      segments_.each_of_row(j, cells.lower[0] - around, cells.upper[0] + around, [&](const SegmentsByCell::Entry& e) {
+        const int i = e.cell - j * view_.lattice.nx;
+        list(e, j >= cells.lower[1] && j <= cells.upper[1] && i >= cells.lower[0] && i <= cells.upper[0], lists);
+      });
+    for (const SegmentsByCell::Entry& e : lists.own)
+      own_.find_cut(e.segment, e.cell);
+    for (const Segment& s : lists.segments)
       if (s.turn > bent)
         fields_.ask_for_energies();
-    for (const Segment& s : segments) {
+    for (const Segment& s : lists.segments) {
       if (s.crack == task_.crack)
         add_own(s);
       else if (task_.other_faces)
@@ -63,19 +70,30 @@ class FaceIntegral {
     double turn;  ///< sine of the angle to the tip's heading; 2 for another crack
   };
 
-  /// Lists a segment if it has a part in J.
-  void list(int k, int cell, std::vector<Segment>& segments) {
-    const int crack = view_.crack[k];
-    const bool own = crack == task_.crack;
-    if (own)
-      own_.find_cut(k, cell);
+  /// Kept by its thread from tip to tip.
+  struct Lists {
+    std::vector<Segment> segments;           ///< with a part in J
+    std::vector<SegmentsByCell::Entry> own;  ///< of the tip's crack
+  };
+
+  /// Lists a segment if it has a part in J; those that are not `inside` may cut others.
+  void list(const SegmentsByCell::Entry& e, bool inside, Lists& lists) {
+    const int k = e.segment;
+    const bool own = e.crack == task_.crack;
+    if (own && !inside)
+      return;
     const Vec2 middle = middle_of(k), along = view_.plane[k + 1] - view_.plane[k];
-    const double q = task_.domain.weight(middle - task_.domain.tip), length = norm(along);
+    const double length = norm(along);
+    if (own)
+      lists.own.push_back(e);
+    else
+      own_.add_other(middle, length);
+    const double q = inside ? task_.domain.weight(middle - task_.domain.tip) : 0;
     if (!(q > 0) || !(length > 0))
       return;
     const Vec2 t = along * (1 / length);
     task_.sums.crossed = task_.sums.crossed || !own;
-    segments.push_back({k, crack, middle, turned(t), length, q, own ? std::fabs(cross(t, task_.heading)) : 2});
+    lists.segments.push_back({k, e.crack, middle, turned(t), length, q, own ? std::fabs(cross(t, task_.heading)) : 2});
   }
 
   void add_own(const Segment& s) {
@@ -85,7 +103,7 @@ class FaceIntegral {
     const bool is_bent = s.turn > bent;
     task_.sums.bent = task_.sums.bent || is_bent;
     // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet(clear_of_tip(s), shut);
+    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet_shut(clear_of_tip(s));
     if (meeting.holds && !is_bent)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
@@ -134,6 +152,14 @@ class FaceIntegral {
     m.traction = contact_traction(contact, traction, s.normal);
     m.holds = dot(m.traction, m.traction) > 0;
     return m;
+  }
+
+  /// Those next to the tip go by the same one.
+  const Meeting& meet_shut(const Segment& s) {
+    if (last_met_ != s.k)
+      last_meeting_ = meet(s, shut);
+    last_met_ = s.k;
+    return last_meeting_;
   }
 
   void add_faces(const Segment& s, const Meeting& meeting) {
@@ -206,6 +232,8 @@ class FaceIntegral {
   TipTask& task_;
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;
+  int last_met_ = -1;
+  Meeting last_meeting_;
 };
 
 }  // namespace riven

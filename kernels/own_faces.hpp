@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "core/state/cracks.hpp"
@@ -45,7 +46,12 @@ inline Vec2 contact_traction(const ContactSettings& contact, Vec2 traction, Vec2
 class OwnFaces {
  public:
   OwnFaces(const Cracks& cracks, const SurfaceView& view, const SegmentsByCell& segments, TipTask& task)
-      : cracks_(cracks), view_(view), segments_(segments), task_(task) {}
+      : cracks_(cracks), view_(view), segments_(segments), task_(task), others_(cleared_others()) {}
+
+  /// A segment of another crack; all that may cut those that are asked for are to be told beforehand.
+  void add_other(Vec2 middle, double length) { others_.push_back({middle, length}); }
+  /// Part of the longest segment that the middle of such a one is at most away from the middle of the one it cuts.
+  static constexpr double reach() { return 1 + at_end; }
 
   /// Does a segment bear tractions of a law?
   bool bears(int k) const { return !cracks_.bearing.empty() && cracks_.bearing[k].y > 0; }
@@ -62,7 +68,7 @@ class OwnFaces {
   /// Notes how far behind the tip another crack first cuts the faces.
   void find_cut(int k, int cell) {
     const Vec2 a = view_.plane[k], b = view_.plane[k + 1];
-    const double place = cut_at(k, cell);
+    const double place = meets_other(k) ? cut_at(k, cell) : uncut;
     if (place == uncut)
       return;
     const double behind = norm(a + place * (b - a) - task_.domain.tip) - at_end * norm(b - a);
@@ -72,7 +78,7 @@ class OwnFaces {
  private:
   template <class Traction>
   void add(int k, double q, const Traction& traction) {
-    const double before = task_.other_faces ? cut_at(k, segments_.cell_of(k)) : uncut;
+    const double before = task_.other_faces && meets_other(k) ? cut_at(k, segments_.cell_of(k)) : uncut;
     const auto work = [&](int n) {
       return n < 0 ? 0 : dot(traction(n), opening_change(n)) * first_length(k) / first_length(n);
     };
@@ -96,6 +102,28 @@ class OwnFaces {
     const double length = 2 * std::fabs(std::sqrt(a) - std::sqrt(b));
     for (int mode = 0; mode < 2; ++mode)
       task_.sums.interaction[mode] -= q * length * dot(traction, known_->slope[mode]);
+  }
+
+  /// Kept by its thread from tip to tip.
+  struct Other {
+    Vec2 middle;
+    double length;
+  };
+  static std::vector<Other>& cleared_others() {
+    thread_local std::vector<Other> others;
+    others.clear();
+    return others;
+  }
+
+  /// Is another crack so near that it may cut a segment? Most are not, and the hash need not be looked at.
+  bool meets_other(int k) const {
+    const Vec2 a = view_.plane[k], b = view_.plane[k + 1], middle = 0.5 * (a + b);
+    const double own = (0.5 + at_end) * norm(b - a);
+    return std::any_of(others_.begin(), others_.end(), [&](const Other& o) {
+      const Vec2 r = o.middle - middle;
+      const double far = own + 0.5 * o.length;
+      return dot(r, r) <= 1.001 * far * far;
+    });
   }
 
   /// Which part of a segment comes before the place where another crack cuts it or one of its ends, or `uncut`. An end
@@ -137,6 +165,7 @@ class OwnFaces {
   const SurfaceView& view_;
   const SegmentsByCell& segments_;
   TipTask& task_;
+  std::vector<Other>& others_;
   std::optional<KnownOpening> known_;  ///< once asked for
 };
 
