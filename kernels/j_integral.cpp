@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/exec/parallel.hpp"
@@ -15,6 +17,11 @@
 namespace riven {
 
 namespace {
+
+/// Asks for the data at p, but not into the nearest cache, which is too small for all that a tip needs.
+void ask_for_line(const void* p) {
+  __builtin_prefetch(p, 0, 2);
+}
 
 /// Velocity gradient and acceleration of a particle from the advanced grid.
 struct Motion {
@@ -49,8 +56,19 @@ class TipSummer {
  public:
   explicit TipSummer(const State<Real, 2>& s) : s_(s), slots_(s.fields, s.grid.lattice.nodes()), law_(laws<Law>(s)) {}
 
-  /// Particles in the cells of the domain. Without inertia those where q is 1 all around are left out.
-  void sum(TipTask& task) const {
+  /// The particles in the cells of a tip's domain.
+  struct Patch {
+    struct Stretch {
+      int first, last;
+    };
+    std::vector<Stretch> stretches;
+    std::vector<int> lines;  ///< first particles of the lines of memory that hold theirs
+    size_t asked = 0;        ///< of these
+    int left() const { return static_cast<int>(lines.size() - asked); }
+  };
+
+  /// Lists the particles in the cells of the domain. Without inertia those where q is 1 all around are left out.
+  void list(const TipTask& task, Patch& patch) const {
     const Lattice& l = s_.grid.lattice;
     const JDomain& d = task.domain;
     const Vec2 c = (d.tip - l.origin) * (1 / l.h);
@@ -61,8 +79,14 @@ class TipSummer {
     // cells that lie, whole, where q is 1
     const int k0 = cell(c.x - d.inner(left) * inv + drift) + 1, k1 = cell(c.x + d.inner(right) * inv - drift) - 1;
     const int m0 = cell(c.y - d.inner(bottom) * inv + drift) + 1, m1 = cell(c.y + d.inner(top) * inv - drift) - 1;
-    Chosen chosen;
-    const auto take = [&](int first, int last) { look(task, chosen, first, last); };
+    patch.stretches.clear();
+    patch.lines.clear();
+    patch.asked = 0;
+    const auto take = [&](int first, int last) {
+      patch.stretches.push_back({first, last});
+      for (int at = first / line * line; at < last; at += line)
+        patch.lines.push_back(at);
+    };
     const int* start = s_.particles.tiles.cell_start.data();
     for (int j = j0; j <= j1; ++j) {
       if (task.inertia || j < m0 || j > m1 || k0 > k1) {
@@ -72,13 +96,21 @@ class TipSummer {
         each_stretch_of_row(l, start, j, k1 + 1, i1, take);
       }
     }
-    sum_chosen(task, chosen);
+  }
+
+  /// Meanwhile asks for the data of the next tip.
+  void sum(TipTask& task, const Patch& patch, Patch& next) const {
+    Chosen chosen;
+    for (const auto [first, last] : patch.stretches)
+      look(task, chosen, first, last, next);
+    sum_chosen(task, chosen, next);
     for (int e = 0; e < 4; ++e)
-      task.sums.filled[e] /= d.length(e);
+      task.sums.filled[e] /= task.domain.length(e);
   }
 
  private:
   static constexpr int lanes = exec::lanes;
+  static constexpr int line = 64 / sizeof(Real);  ///< particles of which a line of memory holds one number each
 
   /// Particles on which q falls.
   struct Chosen {
@@ -87,7 +119,7 @@ class TipSummer {
     int particle[most + lanes];
   };
 
-  void look(TipTask& task, Chosen& chosen, int first, int last) const {
+  void look(TipTask& task, Chosen& chosen, int first, int last, Patch& next) const {
     const JDomain d = task.domain;
     const double outer[4] = {d.outer(right), d.outer(top), -d.outer(left), -d.outer(bottom)};
     const double inner[4] = {d.inner(right), d.inner(top), -d.inner(left), -d.inner(bottom)};
@@ -101,40 +133,48 @@ class TipSummer {
         falls[k] = inside & !full;
       });
       if (chosen.count > Chosen::most - lanes)
-        sum_chosen(task, chosen);
-      const int count = std::min(lanes, last - at), before = chosen.count;
+        sum_chosen(task, chosen, next);
+      const int count = std::min(lanes, last - at);
       for (int k = 0; k < count; ++k) {
         chosen.particle[chosen.count] = at + k;
         chosen.count += static_cast<int>(falls[k]);
       }
-      if (chosen.count > before)
-        ask_for(at);
       if (task.inertia)
         for (int k = 0; k < count; ++k)
           add_inertia(task, at + k, {x[k] - d.tip.x, y[k] - d.tip.y});
     }
   }
 
-  /// Tips lie far apart in memory, so that their particles are waited for unless asked for beforehand.
-  void ask_for(int first) const {
+  /// Asks for some of the lines that are left. A few at a time: a core can wait for a score of them at once, and drops
+  /// what it is asked for beyond these.
+  void ask_for(Patch& patch, int lines) const {
     const Particles<Real, 2>& p = s_.particles;
-    constexpr int line = 64 / sizeof(Real);
-    for (const Real* array : {p.F[0].data(), p.F[1].data(), p.F[2].data(), p.F[3].data(), p.stress[0].data(),
-                              p.stress[1].data(), p.stress[2].data(), p.v[0].data(), p.v[1].data(), p.mass.data()})
-      for (int k = 0; k < lanes; k += line)
-        exec::prefetch(array + first + k);
-    exec::prefetch(p.body.data() + first);
+    const size_t first = patch.asked, end = std::min(patch.lines.size(), first + static_cast<size_t>(lines));
+    for (size_t k = first; k < end; ++k) {
+      const int at = patch.lines[k];
+      for (const Real* array :
+           {p.x[0].data(), p.x[1].data(), p.v[0].data(), p.v[1].data(), p.F[0].data(), p.F[1].data(), p.F[2].data(),
+            p.F[3].data(), p.stress[0].data(), p.stress[1].data(), p.stress[2].data(), p.mass.data()})
+        ask_for_line(array + at);
+      ask_for_line(p.body.data() + at);
+      ask_for_line(s_.fields.fields.data() + at);
+    }
+    patch.asked = end;
   }
 
-  void sum_chosen(TipTask& task, Chosen& chosen) const {
+  void sum_chosen(TipTask& task, Chosen& chosen, Patch& next) const {
     if (chosen.count > 0)
       std::fill_n(chosen.particle + chosen.count, lanes, chosen.particle[chosen.count - 1]);
+    const int share = next.left() * lanes / (3 * std::max(1, chosen.count)) + 1;
     Band band;
     for (int k = 0; k < chosen.count; k += lanes) {
       band.take(s_, law_, task.domain, chosen.particle + k, std::min(lanes, chosen.count - k));
+      ask_for(next, share);
       band.add_j(task);
+      ask_for(next, share);
       if (task.interaction)
         with_fields(*task.solid, task.running, [&](const auto& fields) { band.add_interaction(task, fields); });
+      ask_for(next, share);
     }
     band.add_to(task.sums);
     chosen.count = 0;
@@ -172,17 +212,45 @@ class TipSummer {
   BodyLookup<Law> law_;
 };
 
+/// Tips in the order in which their particles lie in memory. They lie far apart there: a thread takes some that follow
+/// each other, and asks for the data of the next one in time.
+std::vector<size_t> by_place(const Lattice& l, const std::vector<TipTask>& tasks) {
+  std::vector<std::pair<int, size_t>> places;
+  places.reserve(tasks.size());
+  for (const TipTask& task : tasks) {
+    const Vec2 X = (task.domain.tip - l.origin) * (1 / l.h);
+    places.emplace_back(l.sorted_cell(static_cast<int>(X.x), static_cast<int>(X.y)), places.size());
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<size_t> order;
+  order.reserve(places.size());
+  for (const auto& [cell, tip] : places)
+    order.push_back(tip);
+  return order;
+}
+
 template <class Shape, class Law, class Real>
 void sum_tasks(const exec::Space& space, const State<Real, 2>& s, std::vector<TipTask>& tasks) {
   if constexpr (Law::keeps_F) {
     const TipSummer<Shape, Law, Real> summer(s);
     const SurfaceView view = surface_view(s.grid.lattice, s.cracks, s.fields);
     const SegmentsByCell segments(Shape{}, s.grid.lattice, s.cracks);
-    exec::parallel_tasks(space, "J integral", static_cast<long>(tasks.size()), [&](long k) {
-      TipTask& task = tasks[static_cast<size_t>(k)];
-      task.sums = {};
-      summer.sum(task);
-      FaceIntegral<Shape, Law, Real>(s, view, segments, task).add();
+    const std::vector<size_t> order = by_place(s.grid.lattice, tasks);
+    constexpr size_t block = 16;
+    const size_t n = tasks.size();
+    exec::parallel_tasks(space, "J integral", static_cast<long>((n + block - 1) / block), [&](long b) {
+      const size_t first = static_cast<size_t>(b) * block, last = std::min(n, first + block);
+      typename TipSummer<Shape, Law, Real>::Patch now, next;
+      summer.list(tasks[order[first]], next);
+      for (size_t k = first; k < last; ++k) {
+        std::swap(now, next);
+        if (k + 1 < last)
+          summer.list(tasks[order[k + 1]], next);
+        TipTask& task = tasks[order[k]];
+        task.sums = {};
+        summer.sum(task, now, next);
+        FaceIntegral<Shape, Law, Real>(s, view, segments, task).add();
+      }
     });
   } else {
     fail({Exit::internal, "J was not planned for: displacement gradients are not kept", "J integral", {}, {}, {}});
