@@ -29,7 +29,7 @@ bool spread(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k,
     for (int j = 0; j < width; ++j) {
       RowSums row;
       for (int i = 0; i < width; ++i) {
-        const int n = j * width + i, at = slot[n][side];
+        const int n = j * width + i, at = slot[side][n];
         s.slot[n] = std::max(at, 0);
         const double m = double(from.grid.mass[s.slot[n]]);
         mass[n] = at >= 0 && m > least ? m : 0;
@@ -40,7 +40,7 @@ bool spread(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k,
     found[side] = sums.near[3] > 0;
     if (!found[side])
       return;
-    const MassAround around_point(sums);
+    const MassAround around_point(surface_sums(sums, from.dt));
     Vec2 rest = side == 0 ? force : -force;
     const TurningForce turning(around_point, rest, from.grid.lattice.h);
     // what rounding leaves of the second part, near a lone node many times its usual size, is taken from the first

@@ -14,6 +14,9 @@ namespace {
 /// Points that one task looks up, and how far ahead it asks for nodes.
 constexpr long points_of_task = 32, ahead = 4;
 
+/// Points whose surfaces are fitted together.
+constexpr long points_of_fit = SurfaceSumLanes::lanes / 2;
+
 /// What the grid says of a crack point; mass 0 where that is nothing.
 struct Found {
   PointMotion surface[2];  ///< upper and lower
@@ -111,6 +114,25 @@ void close_tip(Moves& m, long k, Cracks& cracks) {
     cracks.upper_velocity[k] = cracks.lower_velocity[k] = 0.5 * (cracks.upper_velocity[k] + cracks.lower_velocity[k]);
 }
 
+/// Looks up the surfaces of points [first, end), as many as are fitted together.
+template <class Shape, class Real>
+void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks, long first, long end, Found* found) {
+  SurfaceSumLanes lanes;
+  const long last = cracks.points() - 1;
+  for (long k = first; k < end; ++k) {
+    from.prefetch_nodes(cracks.plane[std::min(k + 2 * ahead, last)]);
+    from.prefetch_fields(cracks.plane[std::min(k + ahead, last)]);
+    const Vec2 surface[2] = {cracks.upper[k], cracks.lower[k]};
+    from.sum_surfaces(crack_point(from.view, static_cast<int>(k)), surface, [&](int side, const SurfaceSums& sums) {
+      lanes.put(2 * static_cast<int>(k - first) + side, sums);
+    });
+  }
+  lanes.fit(from.grid.lattice.h);
+  for (long k = first; k < end; ++k)
+    for (int side = 0; side < 2; ++side)
+      found[k].surface[side] = lanes.motion(2 * static_cast<int>(k - first) + side);
+}
+
 /// Moves the points of one crack by what was found for them.
 void move_crack(const CrackRules& rules, double dt, int crack, Found* found, Cracks& cracks) {
   const long first = cracks.end_point(crack, false), last = cracks.end_point(crack, true) + 1;
@@ -150,17 +172,12 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   const long points = cracks.points();
   std::vector<Found> found(static_cast<size_t>(points));
   exec::parallel_tasks(space, "move cracks", (points + points_of_task - 1) / points_of_task, [&](long task) {
-    const long first = task * points_of_task, end = std::min(points, first + points_of_task);
-    for (long k = first; k < end; ++k) {
-      from.prefetch_nodes(cracks.plane[std::min(k + 2 * ahead, points - 1)]);
-      from.prefetch_fields(cracks.plane[std::min(k + ahead, points - 1)]);
-      Found& f = found[static_cast<size_t>(k)];
-      const CrackPoint point = crack_point(from.view, static_cast<int>(k));
-      const Vec2 surface[2] = {cracks.upper[k], cracks.lower[k]};
-      from.of_surfaces(point, surface, f.surface);
-      if (rules.motion == CrackMotion::center_of_mass)
-        f.all = from.of_all_fields(cracks.plane[k]);
-    }
+    const long end = std::min(points, (task + 1) * points_of_task);
+    for (long first = task * points_of_task; first < end; first += points_of_fit)
+      find_surfaces(from, cracks, first, std::min(end, first + points_of_fit), found.data());
+    if (rules.motion == CrackMotion::center_of_mass)
+      for (long k = task * points_of_task; k < end; ++k)
+        found[static_cast<size_t>(k)].all = from.of_all_fields(cracks.plane[k]);
   });
   exec::parallel_tasks(space, "move cracks", cracks.count(),
                        [&](long c) { move_crack(rules, dt, static_cast<int>(c), found.data(), cracks); });

@@ -87,7 +87,7 @@ struct Extrapolation {
     }
   }
 
-  /// use(k, around, slot) for the upper (k = 0) and the lower surface of a point: slot[n][k] is the slot of the n-th
+  /// use(k, around, slot) for the upper (k = 0) and the lower surface of a point: slot[k][n] is the slot of the n-th
   /// node around it, row by row, or -1. Not at all if the surfaces are off the grid.
   template <class Use>
   RIVEN_INLINE void each_surface(const CrackPoint& point, const Vec2* x, const Use& use) const {
@@ -98,31 +98,29 @@ struct Extrapolation {
     const auto cell = [&](Vec2 at) { return cell_at<Shape>(l, (at - l.origin) * inv_h); };
     SurfacePoint s[2] = {{point, Side::above, x[0], cell(x[0])}, {point, Side::below, x[1], cell(x[1])}};
     const bool together = a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base;
-    int slot[width * width][2];
+    alignas(64) SurfaceSlots slot;
     for (int first = 0; first < 2; first += together ? 2 : 1) {
-      for (int n = 0; n < width * width; ++n) {
-        const int i = a[first].x.base + n % width, j = a[first].y.base + n / width;
-        slots_of_surfaces(view, s, j * l.nx + i, l.position(i, j), slot[n]);
-      }
+      slots_of_surfaces(view, s, a[first].x.base, a[first].y.base, slot);
       for (int k = first; k < (together ? 2 : first + 1); ++k)
         use(k, a[k], slot);
     }
   }
 
-  /// Motions of the upper and the lower surface of a point.
-  void of_surfaces(const CrackPoint& point, const Vec2* x, PointMotion* motion) const {
-    each_surface(point, x, [&](int k, const Around& a, const int(&slot)[width * width][2]) {
+  /// put(k, sums) for the upper (k = 0) and the lower surface of a point; not at all if they are off the grid.
+  template <class Put>
+  RIVEN_INLINE void sum_surfaces(const CrackPoint& point, const Vec2* x, const Put& put) const {
+    each_surface(point, x, [&](int k, const Around& a, const SurfaceSlots& slot) {
       MotionSums sums;
       for (int j = 0; j < width; ++j) {
         RowSums row;
 #pragma GCC unroll 3
         for (int i = 0; i < width; ++i) {
-          const int at = slot[j * width + i][k], there = std::max(at, 0);
+          const int at = slot[k][j * width + i], there = std::max(at, 0);
           add(row, a.x, i, there, at < 0 ? 0. : double(grid.mass[there]));
         }
         sums.add(row, a.y, j);
       }
-      motion[k] = fit_motion(sums, grid.lattice.h, dt);
+      put(k, surface_sums(sums, dt));
     });
   }
 
@@ -144,7 +142,7 @@ struct Extrapolation {
       }
       sums.add(row, a.y, j);
     }
-    return fit_motion(sums, grid.lattice.h, dt);
+    return fit_motion(surface_sums(sums, dt), grid.lattice.h);
   }
 };
 

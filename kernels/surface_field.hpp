@@ -1,6 +1,7 @@
 // v(s,i): the crack velocity field of a node for a point on a crack's surface (Nairn et al., end of the appendix).
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -191,38 +192,89 @@ inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint
   return field < 0 ? field : detail::cross_others(view, s, place, held, field);
 }
 
-/// The slots of a node for both surfaces of a point, or -1. Where the line along the point tells on which side of the
-/// crack the node is, and no other crack is in sight, this is the same as above without branches: what comes next to
-/// what around a crack is beyond prediction.
-RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, int node, Vec2 place, int* slot) {
-  slot[0] = slot[1] = node;
-  const int f = view.node_index[node];
-  if (f < 0)
-    return;
-  const NodeCracks& held = view.nodes[f];
-  const CrackPoint& own = s[0].own;
-  const int m = held.crack[1] == own.crack, extra = view.lattice.nodes() + held.extra - 1;
-  const bool holds = held.crack[m] == own.crack;
-  const Vec2 r = place - own.x;
-  const double off = dot(r, own.left);
-  const bool unclear = (!holds | own.tip) & !(std::fabs(off) > own.off);
-  if (unclear | (held.sees != own.crack)) {
-    s[0].look(view);
-    s[1].look(view);
-    if (unclear | !s[0].alone | !s[1].alone) {
-      for (int k = 0; k < 2; ++k) {
-        const int field = field_of_surface(view, s[k], held, place);
-        slot[k] = field == 0 ? node : field < 0 ? -1 : extra + field;
+/// Nodes around a point of a crack: 3 x 3 of them, row by row, and room for the lanes behind.
+inline constexpr int surface_width = 3, surface_nodes = surface_width * surface_width;
+inline constexpr int surface_lanes = 16;
+using SurfaceSlots = int[2][surface_lanes];  ///< of the upper and the lower surface; -1: no such field
+
+namespace detail {
+
+/// What nodes know of the cracks around them, side by side. Lanes past the last node hold zeros.
+struct NodesAround {
+  alignas(64) int node[surface_lanes] = {};
+  alignas(64) int flagged[surface_lanes] = {};
+  alignas(64) int extra[surface_lanes] = {};
+  alignas(64) int sees[surface_lanes] = {};
+  alignas(64) int crack[2][surface_lanes] = {};
+  alignas(64) int side[2][surface_lanes] = {};
+  alignas(64) float x[surface_lanes] = {};  ///< m, from the point
+  alignas(64) float y[surface_lanes] = {};
+
+  RIVEN_INLINE NodesAround(const SurfaceView& view, Vec2 from, int i, int j) {
+    const Lattice& l = view.lattice;
+    for (int b = 0, n = 0; b < surface_width; ++b)
+      for (int a = 0; a < surface_width; ++a, ++n) {
+        const Vec2 r = l.position(i + a, j + b) - from;
+        node[n] = (j + b) * l.nx + i + a;
+        x[n] = static_cast<float>(r.x);
+        y[n] = static_cast<float>(r.y);
+        const int f = view.node_index[node[n]];
+        if (f < 0)
+          continue;
+        const NodeCracks& held = view.nodes[f];
+        flagged[n] = 1;
+        extra[n] = l.nodes() + held.extra;
+        sees[n] = held.sees;
+        for (int k = 0; k < 2; ++k) {
+          crack[k][n] = held.crack[k];
+          side[k][n] = static_cast<int>(held.side[k]);
+        }
       }
-      return;
-    }
   }
-  const bool beyond = dot(r, own.beyond) > 0;
-  for (int k = 0; k < 2; ++k) {
-    const bool crosses = ((off > 0) != (s[k].side == Side::above)) & !beyond;
-    const bool has_field = holds & (held.side[m] == s[k].side) & (crosses | !own.tip);
-    const bool empty = !holds & crosses & (held.crack[1] < 0);
-    slot[k] = has_field ? extra + (1 << m) : empty ? -1 : node;
+};
+
+}  // namespace detail
+
+/// The slots of the nodes from (i, j) on for the upper surface s[0] and the lower one s[1] of a point. Where the line
+/// along the point tells on which side of the crack a node is, and no other crack is in sight, these are found without
+/// branches, what comes next to what around a crack being beyond prediction. The others are looked at after.
+RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, int i, int j, SurfaceSlots& slot) {
+  const CrackPoint& own = s[0].own;
+  const detail::NodesAround around(view, own.x, i, j);
+  const int crack = own.crack, tip = own.tip;
+  const float left_x = float(own.left.x), left_y = float(own.left.y), far = float(own.off);
+  const float beyond_x = float(own.beyond.x), beyond_y = float(own.beyond.y);
+  int unclear = 0, unsure = 0;  // a bit for each node
+#pragma omp simd reduction(| : unclear, unsure)
+  for (int n = 0; n < surface_lanes; ++n) {
+    const int second = around.crack[1][n] == crack, holds = second | (around.crack[0][n] == crack);
+    const int side = second ? around.side[1][n] : around.side[0][n];
+    const float off = around.x[n] * left_x + around.y[n] * left_y;
+    const int within = !(around.x[n] * beyond_x + around.y[n] * beyond_y > 0), inside = !tip;
+    const int above = (off > 0) & within, below = (off <= 0) & within;  // crossed by paths from the other side
+    const int loose = !holds, room = around.flagged[n] & loose & (around.crack[1][n] < 0);
+    const int node = around.node[n], field = around.extra[n] + second;
+    const int from_above = holds & (side == int(Side::above)) & (below | inside);
+    const int from_below = holds & (side == int(Side::below)) & (above | inside);
+    slot[0][n] = from_above ? field : room & below ? -1 : node;
+    slot[1][n] = from_below ? field : room & above ? -1 : node;
+    const int near = !(std::fabs(off) > far);
+    const int here = around.flagged[n] & near & (loose | tip);
+    unclear |= here << n;
+    unsure |= (here | (around.flagged[n] & (around.sees[n] != crack))) << n;
+  }
+  if (unsure == 0)
+    return;
+  s[0].look(view);
+  s[1].look(view);
+  for (auto rest = static_cast<unsigned>(s[0].alone && s[1].alone ? unclear : unsure); rest != 0; rest &= rest - 1) {
+    const int n = std::countr_zero(rest);
+    const NodeCracks& held = view.nodes[view.node_index[around.node[n]]];
+    const Vec2 place = view.lattice.position(around.node[n]);
+    for (int k = 0; k < 2; ++k) {
+      const int field = field_of_surface(view, s[k], held, place);
+      slot[k][n] = field == 0 ? around.node[n] : field < 0 ? -1 : around.extra[n] + field - 1;
+    }
   }
 }
 

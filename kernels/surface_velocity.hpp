@@ -21,7 +21,9 @@
 //   f_i = m_i N_i / (sum m N) F + W_i / (sum W) G (x_i - x^).
 // The second part adds up to nothing but the moment of F about x*.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/math/quad.hpp"
 #include "core/math/vec.hpp"
@@ -40,7 +42,7 @@ struct PointMotion {
 struct FittedGradient {
   Vec2 p, q;
   double stretch_p, stretch_q, shear, spin;
-  Vec2 operator()(Vec2 d) const {
+  RIVEN_INLINE Vec2 operator()(Vec2 d) const {
     const double dp = dot(d, p), dq = dot(d, q);
     return (stretch_p * dp + (shear - spin) * dq) * p + ((shear + spin) * dp + stretch_q * dq) * q;
   }
@@ -48,7 +50,7 @@ struct FittedGradient {
 
 /// L from C, the mean of r r^T, and Q, that of u r^T (its columns), with r the nodes' offsets from x^ and u their
 /// velocities less v^. `h`: the cell.
-inline FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec2 Qx, Vec2 Qy, double h) {
+RIVEN_INLINE FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec2 Qx, Vec2 Qy, double h) {
   const double lambda = 1e-3 * h * h, mu = 1e-9 * h * h;
   // the direction of half the angle of (difference, Cxy)
   const double middle = 0.5 * (Cxx + Cyy), difference = 0.5 * (Cxx - Cyy);
@@ -56,7 +58,7 @@ inline FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec2 Qx, 
   const Vec2 near = difference < 0 ? Vec2{Cxy, radius - difference} : Vec2{radius + difference, Cxy};
   const double size = norm(near);
   const Vec2 p = size > 0 ? near * (1 / size) : Vec2{1, 0}, q = turned(p);
-  const double Cp = middle + radius, Cq = std::fmax(0.0, middle - radius);
+  const double Cp = middle + radius, Cq = std::max(0.0, middle - radius);
   const Vec2 Qp = p.x * Qx + p.y * Qy, Qq = q.x * Qx + q.y * Qy;
   // shear g and spin w:  (Cp + Cq + 2 lambda) g + (Cp - Cq) w = S,  (Cp - Cq) g + (Cp + Cq + 2 mu) w = A
   const double spread = Cp + Cq, uneven = Cp - Cq, S = dot(Qq, p) + dot(Qp, q), A = dot(Qp, q) - dot(Qq, p);
@@ -115,22 +117,37 @@ struct MotionSums {
   }
 };
 
+/// What a fit needs of them, v being the velocity before the forces.
+struct SurfaceSums {
+  double near, near_rx, near_ry;                                   ///< m N [1 rx ry]
+  double wide, wide_rx, wide_ry, wide_rxrx, wide_rxry, wide_ryry;  ///< m B [1 rx ry rx^2 rx ry ry^2]
+  Vec2 near_a;                                                     ///< m N a
+  Vec2 near_v, wide_v, rx_v, ry_v;                                 ///< m N v, m B v, m B rx v, m B ry v
+};
+
+RIVEN_INLINE SurfaceSums surface_sums(const MotionSums& s, double dt) {
+  const auto before = [dt](const Quad<double>& q) { return Vec2{q[0] - dt * q[2], q[1] - dt * q[3]}; };
+  return {s.near[3],        s.near_rx,        s.near_ry[3],   s.wide[0],     s.wide[1],
+          s.wide_ry[0],     s.wide[2],        s.wide_ry[1],   s.wide_ry2[0], {s.near_q[2], s.near_q[3]},
+          before(s.near_q), before(s.wide_q), before(s.rx_q), before(s.ry_q)};
+}
+
 /// How the mass lies around a point.
 struct MassAround {
   double near, wide;     ///< 1 / sum m N and 1 / sum m B
   Vec2 arm, centre;      ///< x_s - x* and x^ - x_s
   double Cxx, Cxy, Cyy;  ///< mean of (x - x^) (x - x^)^T
 
-  explicit MassAround(const MotionSums& s)
-      : near(1 / s.near[3]),
-        wide(1 / s.wide[0]),
-        arm(-near * Vec2{s.near_rx, s.near_ry[3]}),
-        centre{wide * s.wide[1], wide * s.wide_ry[0]},
-        Cxx(wide * s.wide[2] - centre.x * centre.x),
-        Cxy(wide * s.wide_ry[1] - centre.x * centre.y),
-        Cyy(wide * s.wide_ry2[0] - centre.y * centre.y) {}
+  explicit RIVEN_INLINE MassAround(SurfaceSums s)
+      : near(1 / s.near),
+        wide(1 / s.wide),
+        arm(-near * Vec2{s.near_rx, s.near_ry}),
+        centre{wide * s.wide_rx, wide * s.wide_ry},
+        Cxx(wide * s.wide_rxrx - centre.x * centre.x),
+        Cxy(wide * s.wide_rxry - centre.x * centre.y),
+        Cyy(wide * s.wide_ryry - centre.y * centre.y) {}
 
-  FittedGradient fit(Vec2 Qx, Vec2 Qy, double h) const { return fit_gradient(Cxx, Cxy, Cyy, Qx, Qy, h); }
+  RIVEN_INLINE FittedGradient fit(Vec2 Qx, Vec2 Qy, double h) const { return fit_gradient(Cxx, Cxy, Cyy, Qx, Qy, h); }
 };
 
 /// The second part of a force on a surface. `h`: the cell.
@@ -145,22 +162,53 @@ struct TurningForce {
   Vec2 on(double m, double B, Vec2 r) const { return (m * wide * B) * G(r - centre); }
 };
 
-/// The motion at the point. `h`: the cell.
-inline PointMotion fit_motion(const MotionSums& s, double h, double dt) {
-  if (!(s.near[3] > 0))
-    return {};
-  const auto before = [dt](const Quad<double>& q, double scale) {
-    return scale * Vec2{q[0] - dt * q[2], q[1] - dt * q[3]};
-  };
+/// The motion at the point, zeros where there is no mass; without branches. `h`: the cell.
+RIVEN_INLINE PointMotion fit_motion(SurfaceSums s, double h) {
   const MassAround mass(s);
-  const Vec2 r = mass.centre, v = before(s.wide_q, mass.wide);
-  const FittedGradient L = mass.fit(before(s.rx_q, mass.wide) - r.x * v, before(s.ry_q, mass.wide) - r.y * v, h);
-  PointMotion m;
-  m.mass = s.near[3];
-  m.before = before(s.near_q, mass.near) + L(mass.arm);
-  m.acceleration = mass.near * Vec2{s.near_q[2], s.near_q[3]};
-  m.spin = L.spin;
-  return m;
+  const Vec2 r = mass.centre, v = mass.wide * s.wide_v;
+  const FittedGradient L = mass.fit(mass.wide * s.rx_v - r.x * v, mass.wide * s.ry_v - r.y * v, h);
+  const Vec2 before = mass.near * s.near_v + L(mass.arm);
+  const bool some = s.near > 0;
+  const auto kept = [some](double value) RIVEN_LANE { return some ? value : 0.; };
+  return {kept(s.near),
+          {kept(before.x), kept(before.y)},
+          {kept(mass.near * s.near_a.x), kept(mass.near * s.near_a.y)},
+          kept(L.spin)};
 }
+
+/// The sums of several surfaces, side by side.
+struct alignas(64) SurfaceSumLanes {
+  static constexpr int lanes = exec::lanes;
+  static constexpr int numbers = sizeof(SurfaceSums) / sizeof(double);
+  double value[numbers][lanes] = {};
+
+  void put(int lane, const SurfaceSums& s) {
+    double number[numbers];
+    std::memcpy(number, &s, sizeof(number));
+    for (int n = 0; n < numbers; ++n)
+      value[n][lane] = number[n];
+  }
+
+  /// Makes them motions, to be had one by one; zeros where nothing was put.
+  void fit(double h) {
+    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+      const auto at = [&, k](int n) RIVEN_LANE { return value[n][k]; };
+      const auto pair = [&](int n) RIVEN_LANE { return Vec2{at(n), at(n + 1)}; };
+      const PointMotion m = fit_motion({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), pair(9),
+                                        pair(11), pair(13), pair(15), pair(17)},
+                                       h);
+      value[0][k] = m.mass;
+      value[1][k] = m.before.x;
+      value[2][k] = m.before.y;
+      value[3][k] = m.acceleration.x;
+      value[4][k] = m.acceleration.y;
+      value[5][k] = m.spin;
+    });
+  }
+  PointMotion motion(int lane) const {
+    const auto at = [&](int n) { return value[n][lane]; };
+    return {at(0), {at(1), at(2)}, {at(3), at(4)}, at(5)};
+  }
+};
 
 }  // namespace riven

@@ -41,7 +41,8 @@ TEST(SurfaceForce, DoesOnNodesTheWorkThatItDoesOnTheSurface) {
       }
       sums.add(row, y, j);
     }
-    const MassAround around(sums);
+    const SurfaceSums of = surface_sums(sums, 1);
+    const MassAround around(of);
     const TurningForce turning(around, F, h);
     double work = 0, moment = 0, size = 0;
     Vec2 all;
@@ -54,7 +55,7 @@ TEST(SurfaceForce, DoesOnNodesTheWorkThatItDoesOnTheSurface) {
       moment += cross(r, f);
       size += norm(f);
     }
-    EXPECT_NEAR(work, dot(F, fit_motion(sums, h, 1).before), 1e-9 * size);
+    EXPECT_NEAR(work, dot(F, fit_motion(of, h).before), 1e-9 * size);
     EXPECT_NEAR(norm(all - F), 0, 1e-9 * size);
     // about the point; mu (surface_velocity.hpp) withstands turning
     EXPECT_NEAR(moment, 0, 1e-5 * size * h);
