@@ -89,7 +89,14 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
   const WatchTiles<Real, true, Stress> see(s.watch);
-  each_tile(space, "grid to particle", s.particles.tiles, extra, see,
+  const TileRun<Real> tiles{
+      s.particles.tiles,
+      s.grid.lattice,
+      extra,
+      {{p.x, p.y, p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr,
+        Stress ? p.Fxx : nullptr, Stress ? p.Fxy : nullptr, Stress ? p.Fyx : nullptr, Stress ? p.Fyy : nullptr},
+       {q, High ? high : nullptr}}};
+  each_tile(space, "grid to particle", tiles, see,
             [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               MotionLanes<Real> motion;
@@ -97,6 +104,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
               alignas(64) Real dx[L], dy[L];
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
+                ask_ahead(stretch, first);
                 w.weigh(at, first);
                 each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
                   gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
@@ -126,31 +134,33 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, true, false> see(s.watch);
-  scatter_tiles<false>(space, "velocities, extrapolate again", plan.scatter, s.particles.tiles, s.grid.lattice,
-                       static_cast<Real*>(nullptr), again, extra, see,
-                       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen)
-                           RIVEN_LANE {
-                             Block<Real, Shape> w;
-                             MotionLanes<Real> motion;
-                             GradientLanes<Real> none;
-                             for (long first = begin; first < end; first += L) {
-                               const int count = static_cast<int>(std::min<long>(L, end - first));
-                               w.weigh(at, first);
-                               each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-                                 gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
-                               });
-                               update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
-                               each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-                                 const long i = first + k;
-                                 const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
-                                 if constexpr (std::is_pointer_v<decltype(slots)>)
-                                   scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra,
-                                                               static_cast<Real*>(nullptr), again);
-                                 else
-                                   scatter<false, false>(w, k, Real(0), A, zero, zero, to);
-                               });
-                             }
-                           });
+  const TileRun<Real> tiles{
+      s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y, p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
+  scatter_tiles<false>(
+      space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
+      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
+        Block<Real, Shape> w;
+        MotionLanes<Real> motion;
+        GradientLanes<Real> none;
+        for (long first = begin; first < end; first += L) {
+          const int count = static_cast<int>(std::min<long>(L, end - first));
+          ask_ahead(stretch, first);
+          w.weigh(at, first);
+          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+            gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
+          });
+          update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
+          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+            const long i = first + k;
+            const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
+            if constexpr (std::is_pointer_v<decltype(slots)>)
+              scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra, static_cast<Real*>(nullptr),
+                                          again);
+            else
+              scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+          });
+        }
+      });
   watch_moves(s);
 }
 

@@ -23,12 +23,13 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const Real* mass = s.particles.mass.data();
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
-  scatter_tiles<false>(space, "higher orders", plan.scatter, s.particles.tiles, s.grid.lattice,
-                       static_cast<Real*>(nullptr), next, extra, WatchNothing{},
+  const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y, mass}, {term, next}}};
+  scatter_tiles<false>(space, "higher orders", plan.scatter, tiles, static_cast<Real*>(nullptr), next, WatchNothing{},
                        [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                          Block<Real, Shape> w;
                          for (long first = begin; first < end; first += L) {
                            const int count = static_cast<int>(std::min<long>(L, end - first));
+                           ask_ahead(stretch, first);
                            w.weigh(at, first);
                            each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
                              const Quad<Real> v = gather_from<false>(w, k, term, nx, slots).value;

@@ -18,14 +18,21 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const TileRun<Real> tiles{
+      s.particles.tiles,
+      s.grid.lattice,
+      extra,
+      {{p.x, p.y, p.vx, p.vy, p.mass, Forces ? p.sxx : nullptr, Forces ? p.syy : nullptr, Forces ? p.sxy : nullptr},
+       {q},
+       mass}};
   const Real bx = Real(gravity.x), by = Real(gravity.y);
-  scatter_tiles<true>(space, "particle to grid", plan.scatter, s.particles.tiles, s.grid.lattice, mass, q, extra,
-                      WatchNothing{},
+  scatter_tiles<true>(space, "particle to grid", plan.scatter, tiles, mass, q, WatchNothing{},
                       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                         Block<Real, Shape> w;
                         alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
                         for (long first = begin; first < end; first += L) {
                           const int count = static_cast<int>(std::min<long>(L, end - first));
+                          ask_ahead(stretch, first);
                           w.weigh(at, first);
                           exec::for_lanes(L, [&](int k) RIVEN_LANE {
                             m[k] = p.mass[first + k];

@@ -4,8 +4,8 @@
 //            node is summed in the same order on any number of threads
 //   atomic   all tiles at once, each into a buffer of its own, flushed with atomic additions where tiles overlap
 //
-// Particles may have drifted by one cell since they were sorted, and see nodes up to one more away: a tile of 8 x 8
-// cells writes to the nodes -2 .. 9 around its corner, and shares all but the nodes 2 .. 5 with its neighbours.
+// A tile of 8 x 8 cells writes to the nodes -2 .. 9 around its corner (tile_reads.hpp), and shares all but the nodes
+// 2 .. 5 with its neighbours.
 #pragma once
 #include <algorithm>
 #include <type_traits>
@@ -14,20 +14,22 @@
 #include "core/state/crack_fields.hpp"
 #include "core/state/particles.hpp"
 #include "kernels/block.hpp"
+#include "kernels/tile_reads.hpp"
 
 namespace riven {
 
-inline constexpr int tile_margin = 2;
-inline constexpr int tile_reach = Lattice::tile + 2 * tile_margin;
-
 /// A stretch of blocks in which no particle sees a node across a crack.
+template <class Real>
 struct Uncrossed {
   static constexpr bool value = false;
+  const TileAhead<Real>* ahead;  ///< null for the last tiles
 };
 
 /// A stretch of blocks in which some do.
+template <class Real>
 struct Crossed {
   static constexpr bool value = true;
+  const TileAhead<Real>* ahead;
   long begin;                     ///< first particle
   const std::uint16_t* crossing;  ///< of the stretch's first block, as in CrossingSlots
   const int* block_slots;
@@ -55,6 +57,13 @@ RIVEN_INLINE void each_particle(const Stretch& stretch, long first, int count, c
   }
 }
 
+/// To be called with each block of a stretch.
+template <class Stretch>
+RIVEN_INLINE void ask_ahead(const Stretch& stretch, long first) {
+  if (stretch.ahead)
+    stretch.ahead->ask(first);
+}
+
 namespace detail {
 
 /// Blocks without a crossing particle that a crossed stretch passes over rather than end: a call costs more.
@@ -68,16 +77,17 @@ RIVEN_ONCE void run_stretch(const Body& body, Stretch stretch, long first, long 
 }
 
 /// body(stretch, first, last, more...) for a tile, cut into stretches of blocks.
-template <class Body, class... More>
-RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, long last, const Body& body,
-                               More&... more) {
+template <class Real, class Body, class... More>
+RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, long last, const TileAhead<Real>* ahead,
+                               const Body& body, More&... more) {
+  const Uncrossed<Real> uncrossed{ahead};
   if (!e.tile_marked || e.tile_marked[tile] == 0)
-    return run_stretch(body, Uncrossed{}, first, last, more...);
+    return run_stretch(body, uncrossed, first, last, more...);
   long block = CrackFields::block_of(first, e.tile_marked[tile] - 1);
   const long blocks = block + (last - first + exec::lanes - 1) / exec::lanes;
   while (block < blocks) {
     const bool crossed = e.crossing[block] != 0;
-    const Crossed stretch{first, e.crossing + block, e.block_slots + block, e.slots};
+    const Crossed<Real> stretch{ahead, first, e.crossing + block, e.block_slots + block, e.slots};
     long stop = block + 1;
     if (crossed) {
       for (long next = stop; next < blocks && next <= stop + gap; ++next)
@@ -91,7 +101,7 @@ RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, lon
     if (crossed)
       run_stretch(body, stretch, first, end, more...);
     else
-      run_stretch(body, Uncrossed{}, first, end, more...);
+      run_stretch(body, uncrossed, first, end, more...);
     first = end;
     block = stop;
   }
@@ -99,18 +109,57 @@ RIVEN_INLINE void each_stretch(const CrossingSlots& e, int tile, long first, lon
 
 }  // namespace detail
 
+/// The tiles that a kernel runs over.
+template <class Real>
+struct TileRun {
+  const Tiles& tiles;
+  const Lattice& lattice;
+  CrossingSlots extra;
+  TileReads<Real> reads;
+};
+
+namespace detail {
+
+/// The same as tasks see it, by value.
+template <class Real>
+struct TileList {
+  const int* list;
+  const int* start;  ///< [tiles + 1] particles
+  long count;
+  int ahead;  ///< the task that a thread is likely to take when it is done with one, so many later
+  Lattice lattice;
+  CrossingSlots extra;
+  TileReads<Real> reads;
+
+  TileList(const TileRun<Real>& run, int first, int last, int threads)
+      : list(run.tiles.by_colour.data() + first),
+        start(run.tiles.start.data()),
+        count(last - first),
+        ahead(threads),
+        lattice(run.lattice),
+        extra(run.extra),
+        reads(run.reads) {}
+
+  template <class Watch, class Body, class... More>
+  RIVEN_INLINE void run(long t, const Watch& watch, const Body& body, More&... more) const {
+    const int tile = list[t], next = list[std::min(t + ahead, count - 1)];
+    const TileAhead<Real> later(reads, lattice, start[tile], start[tile + 1], next, start[next], start[next + 1]);
+    typename Watch::Seen seen{};
+    each_stretch(extra, tile, start[tile], start[tile + 1], t + ahead < count ? &later : nullptr, body, more..., seen);
+    watch.put(tile, seen);
+  }
+};
+
+}  // namespace detail
+
 /// body(stretch, first, last, seen) for the stretches of every tile that holds particles; bodies only read the grid.
 /// `seen` is of type Watch::Seen, and goes to `watch` when the tile is done.
-template <class Watch, class Body>
-void each_tile(const exec::Space& space, const char* label, const Tiles& tiles, const CrossingSlots& extra,
-               const Watch& watch, const Body& body) {
-  exec::parallel_tasks(space, label, static_cast<long>(tiles.by_colour.size()),
-                       [=, list = tiles.by_colour.data(), start = tiles.start.data()](long t) {
-                         const int tile = list[t];
-                         typename Watch::Seen seen{};
-                         detail::each_stretch(extra, tile, start[tile], start[tile + 1], body, seen);
-                         watch.put(tile, seen);
-                       });
+template <class Real, class Watch, class Body>
+void each_tile(const exec::Space& space, const char* label, const TileRun<Real>& run, const Watch& watch,
+               const Body& body) {
+  const int count = static_cast<int>(run.tiles.by_colour.size());
+  const detail::TileList<Real> tiles(run, 0, count, space.threads());
+  exec::parallel_tasks(space, label, count, [=](long t) { tiles.run(t, watch, body); });
 }
 
 namespace detail {
@@ -151,34 +200,31 @@ void flush(const Lattice& lattice, int corner_x, int corner_y, const Real* mass,
 /// body(stretch, first, last, target, seen) for the stretches of every tile that holds particles; bodies add to the
 /// nodes of `target` and to the extra slots. With Mass false nothing is added to the masses.
 template <bool Mass, class Real, class Watch, class Body>
-void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind, const Tiles& tiles,
-                   const Lattice& lattice, Real* grid_mass, Real* grid_q, const CrossingSlots& extra,
-                   const Watch& watch, const Body& body) {
+void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind, const TileRun<Real>& run,
+                   Real* grid_mass, Real* grid_q, const Watch& watch, const Body& body) {
   const exec::Stopwatch timed(space.timers(), label);
-  const int* list = tiles.by_colour.data();
-  const int* start = tiles.start.data();
-  const auto run_tile = [=](int tile, const NodeTarget<Real>& to) {
-    typename Watch::Seen seen{};
-    detail::each_stretch(extra, tile, start[tile], start[tile + 1], body, to, seen);
-    watch.put(tile, seen);
-  };
+  const Lattice lattice = run.lattice;
   if (kind == ScatterKind::ordered) {
     const NodeTarget<Real> whole{grid_mass, grid_q, lattice.nx, 0, 0};
     for (int colour = 0; colour < 4; ++colour) {
-      const int* some = list + tiles.colour_start[colour];
-      exec::launch(space, tiles.colour_start[colour + 1] - tiles.colour_start[colour],
-                   [=](long t) { run_tile(some[t], whole); });
+      const int* const first = &run.tiles.colour_start[colour];
+      const int count = first[1] - first[0];
+      const detail::TileList<Real> tiles(run, first[0], first[1], space.threads());
+      exec::launch(space, count, [=](long t) { tiles.run(t, watch, body, whole); });
     }
     return;
   }
   const bool shared = space.threads() > 1;
-  exec::launch(space, static_cast<long>(tiles.by_colour.size()), [=](long t) {
-    const int tile = list[t];
+  const int count = static_cast<int>(run.tiles.by_colour.size());
+  const detail::TileList<Real> tiles(run, 0, count, space.threads());
+  exec::launch(space, count, [=](long t) {
+    const int tile = tiles.list[t];
     const int corner_x = tile % lattice.tiles_x() * Lattice::tile - tile_margin;
     const int corner_y = tile / lattice.tiles_x() * Lattice::tile - tile_margin;
     alignas(64) Real mass[Mass ? tile_reach * tile_reach + 1 : 1] = {};  // one more: see add_row
     alignas(64) Real q[4 * tile_reach * tile_reach] = {};
-    run_tile(tile, {mass, q, tile_reach, corner_x, corner_y});
+    const NodeTarget<Real> own{mass, q, tile_reach, corner_x, corner_y};
+    tiles.run(t, watch, body, own);
     detail::flush<Mass>(lattice, corner_x, corner_y, mass, q, grid_mass, grid_q, shared);
   });
 }

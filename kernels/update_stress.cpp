@@ -50,15 +50,19 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
+  const TileRun<Real> tiles{s.particles.tiles,
+                            s.grid.lattice,
+                            extra,
+                            {{p.x, p.y, p.mass, p.sxx, p.syy, p.sxy, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {q}}};
   scatter_tiles<false>(
-      space, "stress before, forces", plan.scatter, s.particles.tiles, s.grid.lattice, static_cast<Real*>(nullptr), q,
-      extra, see,
+      space, "stress before, forces", plan.scatter, tiles, static_cast<Real*>(nullptr), q, see,
       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
         StressLanes<Real> stress;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
+          ask_ahead(stretch, first);
           w.weigh(at, first);
           gather_gradients(w, stretch, first, count, q, nx, gradient);
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
@@ -88,12 +92,17 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
-  each_tile(space, "stress after, move", s.particles.tiles, extra, see,
+  const TileRun<Real> tiles{s.particles.tiles,
+                            s.grid.lattice,
+                            extra,
+                            {{p.x, p.y, p.step_x, p.step_y, p.sxx, p.syy, p.sxy, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {again}}};
+  each_tile(space, "stress after, move", tiles, see,
             [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               GradientLanes<Real> gradient;
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
+                ask_ahead(stretch, first);
                 w.weigh(at, first);
                 gather_gradients(w, stretch, first, count, again, nx, gradient);
                 update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);

@@ -32,6 +32,13 @@ RIVEN_INLINE void prefetch([[maybe_unused]] const void* p) {
 #endif
 }
 
+/// The same for data that is needed later, after the nearest cache may have had to make room for others.
+RIVEN_INLINE void prefetch_far([[maybe_unused]] const void* p) {
+#if !defined(__CUDA_ARCH__)
+  __builtin_prefetch(p, 0, 2);
+#endif
+}
+
 /// Particles taken together by one trip through a kernel's body. On the CPU the compiler turns the
 /// trips into vector instructions; a GPU thread takes one particle.
 #if defined(__CUDACC__)
