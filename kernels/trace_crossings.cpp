@@ -14,6 +14,9 @@ namespace riven {
 
 namespace {
 
+/// Marked tiles that one task traces.
+constexpr long tiles_of_task = 8;
+
 /// Forgets all crossings, after a hash, a sort, or when room ran out.
 void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.memory.resize(particles);
@@ -140,8 +143,11 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
   const bool shared = space.threads() > 1;
   const TraceInput<Real> input{particles, domains, lattice, cracks, tile_move};
   for (;;) {
-    exec::launch(space, fields.marked_tiles.size(),
-                 [&](long marked) { Tracer<Shape, Real>(input, fields, shared).tile(marked); });
+    const long tiles = fields.marked_tiles.size();
+    exec::launch(space, (tiles + tiles_of_task - 1) / tiles_of_task, [&](long task) {
+      const long first = task * tiles_of_task;
+      Tracer<Shape, Real>(input, fields, shared).tiles(first, std::min(tiles, first + tiles_of_task));
+    });
     if (fields.used <= fields.records.size())
       return;
     fields.records.resize(fields.used + fields.used / 2);

@@ -1,4 +1,4 @@
-// Traces the particles of one marked tile.
+// Traces the particles of marked tiles.
 #pragma once
 #include <bit>
 #include <limits>
@@ -33,25 +33,33 @@ class Tracer {
         records_(fields, shared),
         inv_h_(1 / input.lattice.h),
         rounding_(input.lattice.h * std::max(1e-9, 8. * std::numeric_limits<Real>::epsilon() *
-                                                       std::max(input.lattice.nx, input.lattice.ny))) {}
+                                                       std::max(input.lattice.nx, input.lattice.ny))),
+        moves_known_(input.tile_move != nullptr) {}
 
-  /// All particles of a marked tile that may have come to cross something else.
-  void tile(long marked) {
-    tile_ = &fields_.tiles[marked];
-    const int t = fields_.marked_tiles[marked];
-    const long first = in_.particles.tiles.start[t], last = in_.particles.tiles.start[t + 1];
-    const bool moves_known = in_.tile_move != nullptr;
-    follow(marked, moves_known ? in_.tile_move[t] : 0);
-    if (moves_known && !tile_->turned && tile_->path < tile_->limit)
-      return;
-    tile_->limit = never;
-    double* limit = fields_.block_limit.data() + CrackFields::block_of(first, marked);
-    for (long block = first; block < last; block += exec::lanes, ++limit) {
-      if (!moves_known || tile_->turned || !(tile_->path < *limit))
-        *limit = look(block, std::min(last, block + exec::lanes), moves_known);
-      tile_->limit = std::min(tile_->limit, *limit);
+  /// All particles of marked tiles [first, last) that may have come to cross something else.
+  void tiles(long first, long last) {
+    const double* const limit = fields_.limit.data();
+    for (long marked = first; marked < last; ++marked) {
+      take(marked);
+      follow(marked, moves_known_ ? in_.tile_move[fields_.marked_tiles[marked]] : 0);
+      each_due_block([&](long begin, long end, double&) {
+        for (long p = begin; p < end; p += 64 / sizeof(double))
+          exec::prefetch(limit + p);
+      });
     }
-    tile_->turned = 0;
+    for (long marked = first; marked < last; ++marked) {
+      take(marked);
+      each_due_block([&](long begin, long end, double&) { look(begin, end); });
+    }
+    keep_all(0);
+    for (long marked = first; marked < last; ++marked) {
+      take(marked);
+      each_due_block(
+          [&](long begin, long end, double& least) { least = *std::min_element(limit + begin, limit + end); });
+      if (due())
+        tile_->limit = *std::min_element(block_limit_, block_limit_ + blocks());
+      tile_->turned = 0;
+    }
   }
 
  private:
@@ -73,20 +81,56 @@ class Tracer {
     tile_->path += (most + 1.4143 * particle_move) * (1 + 1e-9) + 1e-6 * rounding_;
   }
 
-  /// Looks at particles first .. last - 1; returns the path of the tile up to which none of them needs to be looked at
-  /// again.
-  double look(long first, long last, bool moves_known) {
-    double* const limit = fields_.limit.data();
-    const bool all = !moves_known || tile_->turned;
-    const double path = tile_->path;
-    for (long p = first; p < last; ++p)
-      if (all || !(path < limit[p]))
-        limit[p] = keep(p, moves_known);
-    return *std::min_element(limit + first, limit + last);
+  void take(long marked) {
+    const int* start = in_.particles.tiles.start.data() + fields_.marked_tiles[marked];
+    tile_ = &fields_.tiles[marked];
+    first_ = start[0];
+    last_ = start[1];
+    block_limit_ = fields_.block_limit.data() + CrackFields::block_of(first_, marked);
+  }
+  long blocks() const { return (last_ - first_ + exec::lanes - 1) / exec::lanes; }
+  bool all_due() const { return !moves_known_ || tile_->turned; }
+  bool due() const { return all_due() || !(tile_->path < tile_->limit); }
+
+  /// f(first, last, limit) for the blocks of the tile in hand some of whose particles are due.
+  template <class F>
+  void each_due_block(const F& f) const {
+    for (long b = 0; due() && b < blocks(); ++b)
+      if (all_due() || !(tile_->path < block_limit_[b]))
+        f(first_ + b * exec::lanes, std::min(last_, first_ + (b + 1) * exec::lanes), block_limit_[b]);
+  }
+
+  /// Takes note of the particles of a block that are due. What is known of them lies apart in memory, and is asked for
+  /// some particles ahead.
+  void look(long first, long last) {
+    for (long p = first; p < last; ++p) {
+      if (!all_due() && tile_->path < fields_.limit[p])
+        continue;
+      if (noted_ == most_noted)
+        keep_all(ahead);
+      exec::prefetch(&fields_.memory[p]);
+      exec::prefetch(&fields_.memory[p] + 1);
+      exec::prefetch(&in_.particles.x[0][p]);
+      exec::prefetch(&in_.particles.x[1][p]);
+      note_[noted_++] = {p, tile_};
+    }
+  }
+
+  /// Brings all that were noted up to date but the last few.
+  void keep_all(int but) {
+    const int end = noted_ - but;
+    TileTrace* const in_hand = tile_;
+    for (int i = 0; i < end; ++i) {
+      tile_ = note_[i].tile;
+      fields_.limit[note_[i].particle] = keep(note_[i].particle);
+    }
+    tile_ = in_hand;
+    std::copy(note_ + end, note_ + noted_, note_);
+    noted_ = but;
   }
 
   /// Brings the records of one particle up to date; returns how long they will be.
-  double keep(long p, bool moves_known) {
+  double keep(long p) {
     CrossingMemory& m = fields_.memory[p];
     const Vec2 x{double(in_.particles.x[0][p]), double(in_.particles.x[1][p])};
     double used = norm(x - m.x) + (tile_->travel - m.travel);
@@ -97,7 +141,7 @@ class Tracer {
       m.travel = tile_->travel;
       used = 0;
       trace(p, m);
-    } else if (!moves_known || !(tile_->path < m.weighs)) {
+    } else if (!moves_known_ || !(tile_->path < m.weighs)) {
       weigh(p, m);
     }
     return std::min(m.weighs, tile_->path + (m.clear - used));
@@ -271,11 +315,22 @@ class Tracer {
     return in_.lattice.h * ((1 - 1e-5) * std::sqrt(double(least2)) - 1e-5);
   }
 
+  struct Note {
+    long particle;
+    TileTrace* tile;
+  };
+  static constexpr int most_noted = 32, ahead = 8;
+
   TraceInput<Real> in_;
   CrackFields& fields_;
   CrossingRecords records_;
   double inv_h_, rounding_;
-  TileTrace* tile_ = nullptr;
+  const bool moves_known_;
+  TileTrace* tile_ = nullptr;      ///< in hand, and
+  long first_ = 0, last_ = 0;      ///< its particles
+  double* block_limit_ = nullptr;  ///< [blocks]
+  Note note_[most_noted];
+  int noted_ = 0;
   double clear2_ = 0;           ///< squared clearance of the particle in hand
   Floats path_clear2_[groups];  ///< squared distances in cells of tips from its paths
   unsigned weighed_ = 0;        ///< nodes on which the particle in hand has a weight
