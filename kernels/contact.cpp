@@ -82,14 +82,15 @@ RIVEN_INLINE void one_contact(const FieldMotion<Real, stage>& motion, const Dete
   if (m.law.law == ContactLaw::ignored)
     return;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
-  const double inverse[2] = {1 / mass[0], 1 / mass[1]};
   const int a = m.above, b = m.below;
-  const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
-  const double un = dot(u, m.normal), reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
-  if (un <= 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
+  const double closing = dot(mass[b] * momentum[a] - mass[a] * momentum[b], m.normal);
+  if (closing <= 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
     ++report.apart;  // faces that part do not touch, whatever their gap
     return;
   }
+  const double inverse[2] = {1 / mass[0], 1 / mass[1]};
+  const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
+  const double un = dot(u, m.normal), reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
   found.sums.ask(index, n);
   const double* area = found.sums.volume;
   const double volume = area ? relative_volume(lattice, n.node, area[slot[0]] + area[slot[1]]) : 1;
@@ -300,6 +301,7 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   report += exec::parallel_sum<ContactReport>(space, label, fields.nodes.size(), [=](long i, ContactReport& sum) {
     if (i + ahead < count && held[i + ahead] != 0) {
       const NodeCracks& next = nodes[i + ahead];
+      exec::prefetch(found.normals + i + ahead);
       for (const long slot : {long{next.node}, long{lattice.nodes()} + next.extra}) {
         exec::prefetch(motion.mass + slot);
         exec::prefetch(motion.data + 4 * slot);
