@@ -6,7 +6,8 @@
 
 namespace riven {
 
-/// True when some particle may have drifted further from its sorted cell than the tiles' margin allows.
+/// True when some particle may have drifted further from its sorted cell than the tiles' margin allows, or so far that
+/// a sort pays.
 template <class Real>
 bool sort_due(const State<Real, 2>&);
 

@@ -34,7 +34,8 @@ struct StepWatch {
   exec::Array<double> tile_finite;  ///< [tiles] sum of |dx|: not finite if any particle's is not
   double largest_move = 0;          ///< m, this step
   double least_J = 1;
-  double drift = 0;  ///< sum of largest_move since the particles were sorted, m
+  double drift = 0;    ///< sum of largest_move since the particles were sorted, m
+  long sorted_at = 0;  ///< Clock::step at which they were
 };
 
 struct Clock {
