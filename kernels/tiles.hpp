@@ -8,6 +8,7 @@
 // 2 .. 5 with its neighbours.
 #pragma once
 #include <algorithm>
+#include <climits>
 #include <type_traits>
 
 #include "core/exec/parallel.hpp"
@@ -126,7 +127,7 @@ struct TileList {
   const int* list;
   const int* start;  ///< [tiles + 1] particles
   long count;
-  int ahead;  ///< the task that a thread is likely to take when it is done with one, so many later
+  int ahead;  ///< the tile that a thread is likely to take when it is done with one comes so many later
   Lattice lattice;
   CrossingSlots extra;
   TileReads<Real> reads;
@@ -135,17 +136,17 @@ struct TileList {
       : list(run.tiles.by_colour.data() + first),
         start(run.tiles.start.data()),
         count(last - first),
-        ahead(threads),
+        ahead(asking_pays<Real>(start[run.tiles.start.size() - 1]) ? threads : INT_MAX),
         lattice(run.lattice),
         extra(run.extra),
         reads(run.reads) {}
 
   template <class Watch, class Body, class... More>
   RIVEN_INLINE void run(long t, const Watch& watch, const Body& body, More&... more) const {
-    const int tile = list[t], next = list[std::min(t + ahead, count - 1)];
+    const int tile = list[t], next = t + ahead < count ? list[t + ahead] : tile;
     const TileAhead<Real> later(reads, lattice, start[tile], start[tile + 1], next, start[next], start[next + 1]);
     typename Watch::Seen seen{};
-    each_stretch(extra, tile, start[tile], start[tile + 1], t + ahead < count ? &later : nullptr, body, more..., seen);
+    each_stretch(extra, tile, start[tile], start[tile + 1], next != tile ? &later : nullptr, body, more..., seen);
     watch.put(tile, seen);
   }
 };
