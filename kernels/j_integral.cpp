@@ -18,11 +18,6 @@ namespace riven {
 
 namespace {
 
-/// Asks for the data at p, but not into the nearest cache, which is too small for all that a tip needs.
-void ask_for_line(const void* p) {
-  __builtin_prefetch(p, 0, 2);
-}
-
 /// Velocity gradient and acceleration of a particle from the advanced grid.
 struct Motion {
   Mat2<double> grad{0, 0, 0, 0};
@@ -155,9 +150,9 @@ class TipSummer {
       for (const Real* array :
            {p.x[0].data(), p.x[1].data(), p.v[0].data(), p.v[1].data(), p.F[0].data(), p.F[1].data(), p.F[2].data(),
             p.F[3].data(), p.stress[0].data(), p.stress[1].data(), p.stress[2].data(), p.mass.data()})
-        ask_for_line(array + at);
-      ask_for_line(p.body.data() + at);
-      ask_for_line(s_.fields.fields.data() + at);
+        exec::prefetch_far(array + at);
+      exec::prefetch_far(p.body.data() + at);
+      exec::prefetch_far(s_.fields.fields.data() + at);
     }
     patch.asked = end;
   }
@@ -236,8 +231,8 @@ void sum_tasks(const exec::Space& space, const State<Real, 2>& s, std::vector<Ti
     const SurfaceView view = surface_view(s.grid.lattice, s.cracks, s.fields);
     const SegmentsByCell segments(Shape{}, s.grid.lattice, s.cracks);
     const std::vector<size_t> order = by_place(s.grid.lattice, tasks);
-    constexpr size_t block = 16;
-    const size_t n = tasks.size();
+    const size_t n = tasks.size(), threads = static_cast<size_t>(space.threads());
+    const size_t block = std::min<size_t>(16, (n + threads - 1) / threads);  // a few tips keep all threads busy
     exec::parallel_tasks(space, "J integral", static_cast<long>((n + block - 1) / block), [&](long b) {
       const size_t first = static_cast<size_t>(b) * block, last = std::min(n, first + block);
       typename TipSummer<Shape, Law, Real>::Patch now, next;
