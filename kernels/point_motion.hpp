@@ -15,6 +15,7 @@ namespace riven {
 template <class Shape, class Real>
 struct Extrapolation {
   static constexpr int width = AxisWeights::width;
+  static_assert(width == surface_width);
 
   const Grid<Real>& grid;
   const CrackFields& fields;

@@ -193,8 +193,7 @@ inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint
 }
 
 /// Nodes around a point of a crack: 3 x 3 of them, row by row, and room for the lanes behind.
-inline constexpr int surface_width = 3, surface_nodes = surface_width * surface_width;
-inline constexpr int surface_lanes = 16;
+inline constexpr int surface_width = 3, surface_lanes = 16;
 using SurfaceSlots = int[2][surface_lanes];  ///< of the upper and the lower surface; -1: no such field
 
 namespace detail {

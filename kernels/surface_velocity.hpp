@@ -176,9 +176,9 @@ RIVEN_INLINE PointMotion fit_motion(SurfaceSums s, double h) {
           kept(L.spin)};
 }
 
-/// The sums of several surfaces, side by side.
+/// The sums of several surfaces, side by side; those of a point follow each other.
 struct alignas(64) SurfaceSumLanes {
-  static constexpr int lanes = exec::lanes;
+  static constexpr int lanes = 16;
   static constexpr int numbers = sizeof(SurfaceSums) / sizeof(double);
   double value[numbers][lanes] = {};
 
@@ -191,7 +191,8 @@ struct alignas(64) SurfaceSumLanes {
 
   /// Makes them motions, to be had one by one; zeros where nothing was put.
   void fit(double h) {
-    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+#pragma omp simd
+    for (int k = 0; k < lanes; ++k) {
       const auto at = [&, k](int n) RIVEN_LANE { return value[n][k]; };
       const auto pair = [&](int n) RIVEN_LANE { return Vec2{at(n), at(n + 1)}; };
       const PointMotion m = fit_motion({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), pair(9),
@@ -203,7 +204,7 @@ struct alignas(64) SurfaceSumLanes {
       value[3][k] = m.acceleration.x;
       value[4][k] = m.acceleration.y;
       value[5][k] = m.spin;
-    });
+    }
   }
   PointMotion motion(int lane) const {
     const auto at = [&](int n) { return value[n][lane]; };

@@ -33,7 +33,7 @@ bool asking_pays(long particles) {
   return particles * 17 * long{sizeof(Real)} > 12L << 20;
 }
 
-/// The tile that comes after the one in hand.
+/// The tile that comes after the one in hand. `reads` must outlive it.
 template <class Real>
 class TileAhead {
  public:
@@ -72,7 +72,7 @@ class TileAhead {
   }
 
  private:
-  TileReads<Real> reads_;
+  const TileReads<Real>& reads_;
   int nx_, left_, right_, lower_, upper_;
   long begin_;
   int blocks_;

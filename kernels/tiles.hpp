@@ -9,6 +9,7 @@
 #pragma once
 #include <algorithm>
 #include <climits>
+#include <optional>
 #include <type_traits>
 
 #include "core/exec/parallel.hpp"
@@ -143,10 +144,14 @@ struct TileList {
 
   template <class Watch, class Body, class... More>
   RIVEN_INLINE void run(long t, const Watch& watch, const Body& body, More&... more) const {
-    const int tile = list[t], next = t + ahead < count ? list[t + ahead] : tile;
-    const TileAhead<Real> later(reads, lattice, start[tile], start[tile + 1], next, start[next], start[next + 1]);
+    const int tile = list[t];
+    std::optional<TileAhead<Real>> later;
+    if (t + ahead < count) {
+      const int next = list[t + ahead];
+      later.emplace(reads, lattice, start[tile], start[tile + 1], next, start[next], start[next + 1]);
+    }
     typename Watch::Seen seen{};
-    each_stretch(extra, tile, start[tile], start[tile + 1], next != tile ? &later : nullptr, body, more..., seen);
+    each_stretch(extra, tile, start[tile], start[tile + 1], later ? &*later : nullptr, body, more..., seen);
     watch.put(tile, seen);
   }
 };

@@ -54,10 +54,9 @@ class Tracer {
     keep_all(0);
     for (long marked = first; marked < last; ++marked) {
       take(marked);
-      each_due_block(
-          [&](long begin, long end, double& least) { least = *std::min_element(limit + begin, limit + end); });
+      each_due_block([&](long begin, long end, double& least) { least = least_of(limit + begin, limit + end); });
       if (due())
-        tile_->limit = *std::min_element(block_limit_, block_limit_ + blocks());
+        tile_->limit = least_of(block_limit_, block_limit_ + blocks());
       tile_->turned = 0;
     }
   }
@@ -79,6 +78,10 @@ class Tracer {
     if (most > 0)  // however little
       tile_->travel = std::max(tile_->travel + most, std::nextafter(tile_->travel, never));
     tile_->path += (most + 1.4143 * particle_move) * (1 + 1e-9) + 1e-6 * rounding_;
+  }
+
+  static double least_of(const double* first, const double* last) {
+    return first == last ? never : *std::min_element(first, last);
   }
 
   void take(long marked) {
