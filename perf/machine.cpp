@@ -22,6 +22,10 @@ constexpr int vector_bytes = 32;
 constexpr int vector_bytes = 16;
 #endif
 typedef double Vector __attribute__((vector_size(vector_bytes)));
+constexpr int width = vector_bytes / static_cast<int>(sizeof(double));
+/// Two units with a latency of four or five cycles need ten chains; with the two factors they fit into the sixteen
+/// registers of AVX2.
+constexpr int chains = 10;
 
 constexpr int repetitions = 5;
 constexpr long out_of_cache = 128L << 20;  ///< bytes of each array; several times a last-level cache's share
@@ -99,31 +103,29 @@ double update_bandwidth(int threads, long bytes) {
   return 16.0 * static_cast<double>(n) / time;
 }
 
+double multiply_add_chains(long trips) {
+  const Vector factor = Vector{} + 0.999999, term = Vector{} + 1e-6;
+  Vector x[chains];
+  for (int k = 0; k < chains; ++k)
+    x[k] = Vector{} + k;
+  for (long t = 0; t < trips; ++t)
+#pragma GCC unroll 16
+    for (int k = 0; k < chains; ++k)
+      x[k] = x[k] * factor + term;
+  Vector sum = x[0];
+  for (int k = 1; k < chains; ++k)
+    sum += x[k];
+  double total = 0;
+  for (int w = 0; w < width; ++w)
+    total += sum[w];
+  return total;
+}
+
 double fma_rate(int threads) {
-  // Two units with a latency of four or five cycles need ten chains; with the two factors they fit into the
-  // sixteen registers of AVX2.
-  constexpr int chains = 10;
-  constexpr int width = vector_bytes / static_cast<int>(sizeof(double));
   constexpr long trips = 4'000'000;
   const double time = best_time([&] {
 #pragma omp parallel num_threads(threads)
-    {
-      const Vector factor = Vector{} + 0.999999, term = Vector{} + 1e-6;
-      Vector x[chains];
-      for (int k = 0; k < chains; ++k)
-        x[k] = Vector{} + k;
-      for (long t = 0; t < trips; ++t)
-#pragma GCC unroll 16
-        for (int k = 0; k < chains; ++k)
-          x[k] = x[k] * factor + term;
-      Vector sum = x[0];
-      for (int k = 1; k < chains; ++k)
-        sum += x[k];
-      double total = 0;
-      for (int w = 0; w < width; ++w)
-        total += sum[w];
-      keep(total);
-    }
+    keep(multiply_add_chains(trips));
   });
   return 2.0 * chains * width * static_cast<double>(trips) * threads / time;
 }

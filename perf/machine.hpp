@@ -18,6 +18,8 @@ struct MachineRates {
 double triad_bandwidth(int threads, long bytes);
 /// B/s of the update a = s a + t over one array of `bytes`.
 double update_bandwidth(int threads, long bytes);
+/// Ten independent chains of `trips` fused multiply-adds each on the widest vectors of the build. Returns their sum.
+double multiply_add_chains(long trips);
 /// flop/s of fused multiply-adds on registers, two flops each.
 double fma_rate(int threads);
 /// Relaxed atomic additions/s of doubles, every thread walking over one shared table of `bytes`.

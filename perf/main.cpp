@@ -12,9 +12,12 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   riven::perf::add_machine(app);
   riven::perf::add_throughput(app);
+  riven::perf::add_gate(app);
   try {
     app.parse(argc, argv);
     return static_cast<int>(riven::Exit::done);
+  } catch (const CLI::RuntimeError& e) {
+    return e.get_exit_code();
   } catch (const CLI::ParseError& e) {
     return app.exit(e) ? static_cast<int>(riven::Exit::bad_input) : static_cast<int>(riven::Exit::done);
   } catch (const riven::Error& e) {

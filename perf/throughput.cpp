@@ -6,69 +6,59 @@
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
 #include "core/state/make_state.hpp"
-#include "kernels/simulation.hpp"
 #include "kernels/tally.hpp"
+#include "perf/median.hpp"
+#include "perf/runner.hpp"
 
 namespace riven::perf {
 
 namespace {
 
-/// An entrant in motion, and its times so far.
-class Runner {
+/// An entrant, and its times so far.
+class Turns {
  public:
-  Runner(const Entrant& entrant, int threads)
-      : entrant_(entrant), space_(exec::Kind::openmp, threads), m_(entrant_.scene, space_), task_(m_.tasks.size()) {
-    auto& p = m_.state.particles;
-    for (long i = 0; i < p.count(); ++i) {
-      const Vec2 v = entrant_.velocity({p.x[0][i], p.x[1][i]});
-      p.v[0][i] = v.x;
-      p.v[1][i] = v.y;
-    }
-    tally(space_, m_.plan, m_.state);  // before the first step: what momentum and energy start from
-  }
+  Turns(const Entrant& entrant, int threads)
+      : runner_(entrant, exec::Kind::openmp, threads), task_(runner_.simulation().tasks.size()) {}
 
-  void run(int steps) {
-    for (int s = 0; s < steps; ++s)
-      m_.step();
-  }
+  void warm_up(int steps) { runner_.run(steps); }
   void take_turn(int steps) {
+    const Simulation& m = runner_.simulation();
     std::vector<double> before;
-    for (const Task& t : m_.tasks)
+    for (const Task& t : m.tasks)
       before.push_back(t.seconds);
-    const long touched = m_.contact_after.touching;
+    const long touched = m.contact_after.touching;
     const double start = exec::Stopwatch::now();
-    run(steps);
+    runner_.run(steps);
     seconds_.push_back((exec::Stopwatch::now() - start) / steps);
     for (size_t t = 0; t < before.size(); ++t)
-      task_[t].push_back((m_.tasks[t].seconds - before[t]) / steps);
-    contacts_ += m_.contact_after.touching - touched;
+      task_[t].push_back((m.tasks[t].seconds - before[t]) / steps);
+    contacts_ += m.contact_after.touching - touched;
     steps_ += steps;
   }
 
   Result result() {
-    tally(space_, m_.plan, m_.state);
+    Simulation& m = runner_.simulation();
+    tally(m.space, m.plan, m.state);
     Result r;
-    r.name = entrant_.name;
-    r.without_cracks = entrant_.without_cracks;
-    r.threads = space_.threads();
-    r.particles = m_.state.particles.count();
+    r.name = runner_.entrant().name;
+    r.without_cracks = runner_.entrant().without_cracks;
+    r.threads = m.space.threads();
+    r.particles = runner_.particles();
     r.steps = steps_;
     r.seconds = seconds_;
     for (size_t t = 0; t < task_.size(); ++t)
       r.tasks.push_back(
-          {m_.tasks[t].label, m_.tasks[t].effect, 1e9 * median(task_[t]) / static_cast<double>(r.particles)});
-    for (const ArrayReport& a : list_arrays(m_.state))
+          {m.tasks[t].label, m.tasks[t].effect, 1e9 * median(task_[t]) / static_cast<double>(r.particles)});
+    for (const ArrayReport& a : list_arrays(m.state))
       (a.name.rfind("particles", 0) == 0 ? r.particle_bytes : r.other_bytes) += a.bytes;
     r.contacts = contacts_;
-    r.momentum_error = m_.state.ledger.momentum.error();
-    r.energy_error = m_.state.ledger.energy.relative_error();
+    r.momentum_error = m.state.ledger.momentum.error();
+    r.energy_error = m.state.ledger.energy.relative_error();
     return r;
   }
 
  private:
-  Entrant entrant_;
-  exec::Space space_;
-  Simulation m_;
+  Runner runner_;
   std::vector<double> seconds_;
   std::vector<std::vector<double>> task_;  ///< [tasks][turns] seconds per step
   long contacts_ = 0, steps_ = 0;
@@ -83,27 +73,20 @@ double Result::median_rate() const {
   return static_cast<double>(particles) / median(seconds);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1)
-    return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 std::vector<Result> measure(const Group& group, const std::vector<int>& threads) {
-  std::vector<std::unique_ptr<Runner>> runners;
+  std::vector<std::unique_ptr<Turns>> all;
   for (const Entrant& e : group.entrants())
     for (const int n : threads)
-      runners.push_back(std::make_unique<Runner>(e, n));
-  for (const auto& r : runners)
-    r->run(group.warm_up);
+      all.push_back(std::make_unique<Turns>(e, n));
+  for (const auto& one : all)
+    one->warm_up(group.warm_up);
   for (int turn = 0; turn < group.turns; ++turn)
-    for (const auto& r : runners)
-      r->take_turn(group.steps);
+    for (const auto& one : all)
+      one->take_turn(group.steps);
   std::vector<Result> results;
-  for (const auto& r : runners)
-    results.push_back(r->result());
+  results.reserve(all.size());
+  for (const auto& one : all)
+    results.push_back(one->result());
   return results;
 }
 

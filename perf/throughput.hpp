@@ -1,14 +1,27 @@
 // Rates of whole steps: entrants take turns, so that what else the machine does meets all of them alike.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "perf/throughput_scenes.hpp"
+#include "perf/scenes.hpp"
 
 namespace riven::perf {
 
 /// Floating-point operations of one step of one particle in the crack-free block, an addition or a multiplication each.
 constexpr double flops_per_particle_step = 430;
+
+/// Entrants that take turns, and how long a turn is.
+struct Group {
+  std::string name, title;
+  int warm_up;  ///< steps before the first turn
+  int steps;    ///< of a turn
+  int turns;
+  std::function<std::vector<Entrant>()> entrants;  ///< makes the scenes; throws Error
+};
+
+/// block, large, methods, sent, growing, many.
+std::vector<Group> throughput_groups();
 
 struct TaskTime {
   std::string label, effect;
@@ -38,8 +51,6 @@ struct Overhead {
   double median = 0;  ///< of the turns' ratios, less one
   double best = 0;    ///< ratio of the fastest turns, less one
 };
-
-double median(std::vector<double> values);
 
 /// Runs all entrants of a group on each number of threads, turn by turn. Throws Error (unstable) if a run goes wrong.
 std::vector<Result> measure(const Group& group, const std::vector<int>& threads);
