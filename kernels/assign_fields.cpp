@@ -15,8 +15,6 @@ namespace riven {
 
 namespace {
 
-enum Verdict : std::uint8_t { other_side = 4, third_crack = 8 };  // 1 and 2 are fields
-
 /// Tells the tiles whose particles may see the node that its cracks have changed.
 void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
   each_tile_around(lattice, node, 1, [&](int tile) {

@@ -12,15 +12,13 @@ RIVEN_INLINE int cell_at(const Lattice& lattice, Vec2 X) {
   return Shape::cell(X.y) * lattice.nx + Shape::cell(X.x);
 }
 
-/// f(cell) for the cells whose particles may see a node.
+/// f(cell) for a cell and the eight around it, on the lattice or not; those of a node's number hold the particles that
+/// may see the node.
 template <class F>
-void each_cell_seeing(const Lattice& lattice, int node, const F& f) {
+void each_cell_around(const Lattice& lattice, long cell, const F& f) {
   for (int j = -1; j <= 1; ++j)
-    for (int i = -1; i <= 1; ++i) {
-      const long cell = node + long{j} * lattice.nx + i;
-      if (cell >= 0 && cell < lattice.nodes())
-        f(cell);
-    }
+    for (int i = -1; i <= 1; ++i)
+      f(cell + long{j} * lattice.nx + i);
 }
 
 /// f(tile) for the tiles of all particles that may be in the given cell or at most `reach` cells away from it along

@@ -96,14 +96,16 @@ void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks
 void mark_tiles(const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.tile_marked.resize(lattice.tiles_x() * lattice.tiles_y());
   fields.tile_marked.zero();
-  std::vector<std::pair<int, int>> seen;  // tile, crack
+  std::vector<std::pair<int, int>> seen;  // tile, crack; most repeat what the tile saw last
+  std::vector<int> last(static_cast<size_t>(fields.tile_marked.size()), -1);
   for (long c = 0; c < fields.cells.size(); ++c)
     each_tile_around(lattice, fields.cells[c], 0, [&](int tile) {
       fields.tile_marked[tile] = 1;
       for (int s = fields.cell_start[c]; s < fields.cell_start[c + 1]; ++s) {
-        const std::pair<int, int> here{tile, cracks.crack[fields.cell_segment[s]]};
-        if (seen.empty() || seen.back() != here)
-          seen.push_back(here);
+        const int crack = cracks.crack[fields.cell_segment[s]];
+        if (last[static_cast<size_t>(tile)] != crack)
+          seen.emplace_back(tile, crack);
+        last[static_cast<size_t>(tile)] = crack;
       }
     });
   std::sort(seen.begin(), seen.end());
@@ -180,6 +182,9 @@ bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cr
 template <class Shape>
 void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   const exec::Stopwatch watch(space.timers(), "hash cracks");
+  if (!fields.relisted)
+    std::swap(static_cast<CrackLists&>(fields), fields.former);
+  fields.relisted = true;
   // paths lie between a place in the cell and the three by three nodes around the nearest one, which crack surfaces see
   // with every shape function; those that end at one node start at most one and a half cells away from it
   constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
@@ -197,9 +202,15 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   fields.recount.resize(fields.nodes.size());
   fields.clearance.resize(fields.nodes.size());
   fields.hashed.resize(cracks.points());
-  for (int k = 0; k < cracks.points(); ++k)
+  fields.serial = cracks.serial;
+  fields.kind.resize(cracks.points());
+  for (int k = 0; k < cracks.points(); ++k) {
     fields.hashed[k] = seen_point(cracks, k, lattice.h);
-  fields.order = -1;
+    fields.kind[k] = PointKind::joint;
+  }
+  for (int c = 0; c < cracks.count(); ++c)
+    for (const bool last : {false, true})
+      fields.kind[cracks.end_point(c, last)] = cracks.is_open(c, last) ? PointKind::open_end : PointKind::end;
 }
 
 template void hash_cracks<Linear>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);

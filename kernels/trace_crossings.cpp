@@ -1,14 +1,14 @@
 #include "kernels/trace_crossings.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "core/exec/parallel.hpp"
 #include "core/fracture/crack_path.hpp"
-#include "kernels/cells_around.hpp"
+#include "kernels/carry_traces.hpp"
 #include "kernels/tracer.hpp"
+#include "kernels/turned.hpp"
 
 namespace riven {
 
@@ -17,7 +17,7 @@ namespace {
 /// Marked tiles that one task traces.
 constexpr long tiles_of_task = 8;
 
-/// Forgets all crossings, after a hash, a sort, or when room ran out.
+/// Forgets all crossings, after a sort or when room ran out.
 void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.memory.resize(particles);
   fields.limit.resize(particles);
@@ -110,17 +110,6 @@ bool follow_node(const Lattice& lattice, const Cracks& cracks, CrackFields& fiel
   return !afresh && (before.near != c.near || before.joined != c.joined || (c.near >= 0 && before.sides != c.sides));
 }
 
-/// Has all particles traced that see this node.
-void mark_turned(const Lattice& lattice, int node, CrackFields& fields) {
-  each_cell_seeing(lattice, node, [&](long cell) {
-    std::atomic_ref<int>(fields.turned[cell]).store(fields.traces, std::memory_order_relaxed);
-  });
-  each_tile_around(lattice, node, 1, [&](int tile) {
-    if (const int m = fields.tile_marked[tile])
-      std::atomic_ref<int>(fields.tiles[m - 1].turned).store(1, std::memory_order_relaxed);
-  });
-}
-
 }  // namespace
 
 template <class Shape, class Real>
@@ -129,16 +118,19 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
                      const double* tile_move, CrackFields& fields) {
   const exec::Stopwatch watch(space.timers(), "trace crossings");
   const bool afresh = fields.order != particles.tiles.order || fields.memory.size() != particles.count();
+  ++fields.traces;
   if (afresh)
     begin_anew(particles.count(), lattice, cracks, fields);
+  else if (fields.relisted)
+    carry_traces(space, particles.tiles, lattice, cracks, fields);
   fields.order = particles.tiles.order;
-  ++fields.traces;
+  fields.relisted = false;
   follow_moves(space, lattice, cracks, fields);
   exec::launch(space, (fields.nodes.size() + exec::chunk - 1) / exec::chunk, [&](long c) {
     const long end = std::min(fields.nodes.size(), (c + 1) * exec::chunk);
     for (long f = c * exec::chunk; f < end; ++f)
       if (follow_node(lattice, cracks, fields, f, afresh))
-        mark_turned(lattice, fields.nodes[f].node, fields);
+        turn_node(lattice, fields.nodes[f].node, fields);
   });
   const bool shared = space.threads() > 1;
   const TraceInput<Real> input{particles, domains, lattice, cracks, tile_move};

@@ -32,6 +32,7 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
   for (Junction& j : cracks.junctions)
     j.segment += !last && j.other == crack;
   cracks.crack[at] = crack;
+  cracks.serial[at] = static_cast<int>(points);  // points only ever come
   cracks.plane[at] = cracks.upper[at] = cracks.lower[at] = plane;
   cracks.plane0[at] = plane0;
   if (!cracks.upper_velocity.empty())

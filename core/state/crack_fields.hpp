@@ -27,6 +27,9 @@ struct alignas(64) NodeNormals {
   Vec2 first[2];  ///< of the cracks' first positions
 };
 
+/// What the crossing of a crack from one side means at a node, where it is not field 1 or 2.
+enum CrossingVerdict : std::uint8_t { other_side = 4, third_crack = 8 };
+
 /// The path from a particle to one of its nodes crosses a crack.
 struct CrossingRecord {
   int node;                ///< position in CrackFields::nodes
@@ -75,12 +78,12 @@ struct TileTrace {
   int warnings[2] = {0, 0};
 };
 
-struct CrackFields {
-  static constexpr int bits = 2;          ///< of a field number
-  static_assert(exec::lanes <= 16);       // bits in `crossing`
-  static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
+/// How a point bounds the segments that it ends.
+enum class PointKind : std::uint8_t { joint, end, open_end };
 
-  // hash: cells, tiles and nodes that may see cracks; remade when a crack has moved by more than the margin.
+/// What hash lists, remade when cracks have grown or one has moved by more than the margin, and what trace and assign
+/// keep in terms of these lists.
+struct CrackLists {
   // A cell carries the number of the node that the shape function sorts its particles by.
   exec::Array<int> cell_index;        ///< [nodes] index into `cells`, or -1
   exec::Array<int> cells;             ///< [marked] cells that see a segment, ascending
@@ -92,36 +95,49 @@ struct CrackFields {
   exec::Array<int> tile_crack;
   exec::Array<int> node_index;       ///< [nodes] index into `nodes`, or -1
   exec::Array<NodeCracks> nodes;     ///< [flagged] every node that may see a crack, in ascending node number
-  exec::Array<NodeNormals> normals;  ///< [flagged]
-  exec::Array<std::uint8_t> held;    ///< [flagged] how many cracks the node holds
   exec::Array<int> candidate_start;  ///< [flagged + 1] CSR of the cracks that each such node may see
   exec::Array<int> candidate;        ///< crack numbers, ascending within a node
   exec::Array<int> segment_start;    ///< [candidates + 1] CSR of the segments of this crack that the node may see
   exec::Array<int> node_segment;     ///< first points of these, ascending
+  exec::Array<Vec2> hashed;          ///< [points] crack points as paths saw them when the hash was made
+  exec::Array<int> serial;           ///< [points] Cracks::serial
+  exec::Array<PointKind> kind;       ///< [points]
+
+  exec::Array<Vec2> traced;  ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
+  exec::Array<NodeClearance> clearance;  ///< [flagged]
+  exec::Array<TileTrace> tiles;          ///< [marked tiles]
+  exec::Array<int> tally;                ///< [2 candidates] crossings from above and from below
+  exec::Array<std::uint8_t> verdict;     ///< [2 candidates] field, or CrossingVerdict, of a crossing of this entry
+  exec::Array<std::uint8_t> held;        ///< [flagged] how many cracks the node holds
+};
+
+struct CrackFields : CrackLists {
+  static constexpr int bits = 2;          ///< of a field number
+  static_assert(exec::lanes <= 16);       // bits in `crossing`
+  static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
+
+  exec::Array<NodeNormals> normals;  ///< [flagged]
   exec::Array<int> extra;            ///< [nodes] see grid.hpp
   int extra_slots = 0;
-  exec::Array<Vec2> hashed;  ///< [points] crack points as paths saw them when the hash was made
+
+  CrackLists former;      ///< as the last trace knew them
+  bool relisted = false;  ///< the lists are others since then
 
   // trace: crossings, and their sums for each node. They are kept from step to step and changed where a particle's
   // crossings change. Sums are of integers, so that they do not depend on the order of the particles.
-  exec::Array<Vec2> traced;        ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
   exec::Array<double> crack_move;  ///< [cracks] m, largest move of its points since the trace before
   double travel = 0;               ///< m, sum over the steps of the largest of these
-  exec::Array<NodeClearance> clearance;  ///< [flagged]
-  int traces = 0;                        ///< so far
-  exec::Array<int> turned;               ///< [nodes] the last trace before which a node of this cell changed sides
+  int traces = 0;                  ///< so far
+  exec::Array<int> turned;         ///< [nodes] the last trace before which a node of this cell changed sides
   exec::Array<CrossingRecord> records;
   long used = 0;                       ///< records given away
   exec::Array<CrossingMemory> memory;  ///< [particles]
   exec::Array<double> limit;           ///< [particles] as TileTrace::limit
   exec::Array<double> block_limit;     ///< [blocks of particles] the least of these; see block_of
-  exec::Array<TileTrace> tiles;        ///< [marked tiles]
   long order = -1;                     ///< Tiles::order of the particles that `memory` is about; -1: nothing is known
-  exec::Array<int> tally;              ///< [2 candidates] crossings from above and from below
   exec::Array<std::uint8_t> recount;   ///< [flagged] 1 where sums have changed
 
   // assign
-  exec::Array<std::uint8_t> verdict;    ///< [2 candidates] what a crossing of this entry means
   exec::Array<std::uint32_t> fields;    ///< [particles] `bits` for each neighbour node, row by row from the lower left
   exec::Array<std::uint16_t> crossing;  ///< [blocks of particles] a bit for each whose `fields` is not 0; see block_of
   exec::Array<int> block_slots;         ///< [blocks of particles] where the slots of the first of these stand

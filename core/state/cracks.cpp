@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -57,6 +58,8 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
     std::copy(all.begin(), all.end(), a->begin());
   }
   cracks.crack.resize(n);
+  cracks.serial.resize(n);
+  std::iota(cracks.serial.begin(), cracks.serial.end(), 0);
   cracks.open.resize(2 * cracks.count());
   std::copy(owner.begin(), owner.end(), cracks.crack.begin());
   if (scene.surface_update == SurfaceUpdate::xpic) {

@@ -34,6 +34,7 @@ struct Cracks {
   std::vector<ContactSettings> contact;              ///< law of each crack
   std::vector<int> start{0};                         ///< [cracks + 1]
   exec::Array<int> crack;                            ///< [points] which crack a point belongs to
+  exec::Array<int> serial;                           ///< [points] in order of their making: stays with a point
   exec::Array<Vec2> plane;                           ///< [points] crack plane
   exec::Array<Vec2> upper, lower;                    ///< [points] surface positions, above and below
   exec::Array<Vec2> upper_velocity, lower_velocity;  ///< [points] XPIC(1) only
@@ -82,6 +83,7 @@ struct Cracks {
         f(a);
     };
     some(self.crack);
+    some(self.serial);
     for (auto* a :
          {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0, &self.jump})
       some(*a);

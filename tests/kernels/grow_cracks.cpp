@@ -201,16 +201,18 @@ TEST(GrowCracks, AtTheFirstEndAsAtTheLast) {
     EXPECT_LT(norm(ca.plane[k] - cb.plane[k]), 1e-9) << k;
 }
 
-/// What was kept from step to step is what would be found afresh.
+/// What was kept from step to step, and over the hash that growth calls for, is what would be found afresh: fields of
+/// particles, counts of nodes, and what these mean.
 TEST(GrowCracks, LeaveFieldsAsTheyWouldBeFoundAfresh) {
-  Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("inner", {{14, 4}, {17, 5}})}), open);
-  long crossing = 0;
+  Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("in its way", {{14, 4}, {17, 9}})}), open);
+  long crossing = 0, carried = 0;
   for (int n = 0; n < 200; ++n) {
     const auto& s = run.m.state;
     run.steps(1);
-    if (hash_due(Driven::serial(), s.grid.lattice, s.cracks, s.fields))
-      continue;
     CrackFields kept = s.fields, fresh;
+    const bool grown = hash_due(Driven::serial(), s.grid.lattice, s.cracks, s.fields);
+    if (grown)
+      hash_cracks<UGimp>(Driven::serial(), s.grid.lattice, s.cracks, kept);
     determine_fields<UGimp>(Driven::serial(), s.particles, s.domains.data(), s.grid.lattice, s.cracks, kept,
                             s.watch.tile_move.data());
     hash_cracks<UGimp>(Driven::serial(), s.grid.lattice, s.cracks, fresh);
@@ -219,8 +221,43 @@ TEST(GrowCracks, LeaveFieldsAsTheyWouldBeFoundAfresh) {
       ASSERT_EQ(kept.fields[i], fresh.fields[i]) << n;
       crossing += fresh.fields[i] != 0;
     }
+    if (!grown)
+      continue;  // the lists were made at other times
+    carried += kept.order == s.fields.order;
+    ASSERT_EQ(kept.tally.size(), fresh.tally.size()) << n;
+    for (long e = 0; e < fresh.tally.size(); ++e) {
+      ASSERT_EQ(kept.tally[e], fresh.tally[e]) << n;
+      ASSERT_EQ(kept.verdict[e], fresh.verdict[e]) << n;
+    }
   }
   EXPECT_GT(crossing, 1000);
+  EXPECT_GT(carried, 20);
+}
+
+/// Growth has those particles traced again that are near the new segment.
+TEST(GrowCracks, LeaveOthersUntraced) {
+  Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("inner", {{4, 14}, {22, 15}})}), open);
+  const auto& s = run.m.state;
+  long grown = 0, few = 0;
+  for (int n = 0; n < 60; ++n) {
+    run.steps(1);
+    if (!hash_due(Driven::serial(), s.grid.lattice, s.cracks, s.fields))
+      continue;
+    ++grown;
+    CrackFields kept = s.fields;
+    hash_cracks<UGimp>(Driven::serial(), s.grid.lattice, s.cracks, kept);
+    determine_fields<UGimp>(Driven::serial(), s.particles, s.domains.data(), s.grid.lattice, s.cracks, kept,
+                            s.watch.tile_move.data());
+    long traced = 0, known = 0;
+    for (long i = 0; i < s.particles.count(); ++i) {
+      known += kept.memory[i].known;
+      traced += kept.memory[i].known && !(norm(kept.memory[i].x - s.fields.memory[i].x) == 0);
+    }
+    EXPECT_GT(traced, 0);
+    few += traced < known / 3;
+  }
+  EXPECT_GT(grown, 3);
+  EXPECT_GE(few, grown - 1);  // when the records run out of room, all are traced again
 }
 
 TEST(GrowCracks, LeaveTheSolidInTwoParts) {
