@@ -35,6 +35,8 @@ void print_tasks(const Summary& s) {
 void print_summary(const Summary& s, const std::filesystem::path& folder) {
   fmt::print("\n{} steps to {} in {}: {:.2f} million particle-steps/s\n", s.steps, format_time(s.time),
              format_duration(s.wall_seconds), 1e-6 * s.particle_steps_per_second);
+  fmt::print("peak memory {}, {:.0f} bytes per particle\n", format_bytes(s.peak_memory_bytes),
+             static_cast<double>(s.peak_memory_bytes) / static_cast<double>(s.particles));
   fmt::print("energy error {:.2e} of the largest energy, momentum error {:.1e}, angular momentum error {:.1e}\n",
              s.energy.relative_error, s.momentum_error, s.angular_momentum_error);
   for (const Summary::Value& p : s.probes)

@@ -61,6 +61,16 @@ std::string format_duration(double seconds) {
   return fmt::format("{} s", s);
 }
 
+std::string format_bytes(long bytes) {
+  static constexpr const char* prefixes[] = {"", "k", "M", "G", "T"};
+  int power = 0;
+  double value = static_cast<double>(bytes);
+  for (; value >= 999.5 && power < 4; ++power)
+    value /= 1000;
+  const int decimals = power == 0 || value >= 99.95 ? 0 : value < 9.995 ? 2 : 1;
+  return fmt::format("{:.{}f} {}B", value, decimals, prefixes[power]);
+}
+
 std::string progress_line(const ProgressState& p) {
   const double part = p.end_time > 0 ? std::clamp(p.time / p.end_time, 0.0, 1.0) : 1;
   return fmt::format("{:3.0f} %  step {}  {} of {}  dt {} ({})  {:.1f} M particle-steps/s  {} left",

@@ -9,6 +9,8 @@ namespace riven {
 std::string format_time(double seconds);
 /// "1 h 5 min", "2 min 3 s", "7 s": how long something takes.
 std::string format_duration(double seconds);
+/// "2.17 GB": three digits and an SI prefix, up to terabytes.
+std::string format_bytes(long bytes);
 
 struct ProgressState {
   long step = 0;

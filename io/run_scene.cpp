@@ -11,6 +11,7 @@
 #include "io/event_log.hpp"
 #include "io/frames.hpp"
 #include "io/history.hpp"
+#include "io/peak_memory.hpp"
 #include "io/probes.hpp"
 #include "io/progress.hpp"
 #include "io/tip_report.hpp"
@@ -119,6 +120,7 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   out.wall_seconds = wall_seconds;
   out.particles = s.particles.count();
   out.particle_steps_per_second = static_cast<double>(out.particles) * static_cast<double>(out.steps) / wall_seconds;
+  out.peak_memory_bytes = peak_memory();
   out.threads = m.space.threads();
   out.exec = exec::name(m.space.kind());
   out.scatter = name_of(m.plan.scatter);

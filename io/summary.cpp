@@ -67,6 +67,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["wall_seconds"] = number(s.wall_seconds);
   j["particles"] = s.particles;
   j["particle_steps_per_second"] = number(s.particle_steps_per_second);
+  j["peak_memory_bytes"] = s.peak_memory_bytes;
   j["threads"] = s.threads;
   j["exec"] = s.exec;
   j["scatter"] = s.scatter;

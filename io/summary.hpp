@@ -65,6 +65,7 @@ struct Summary {
   double wall_seconds = 0;
   long particles = 0;
   double particle_steps_per_second = 0;
+  long peak_memory_bytes = 0;  ///< set-up and output included
   int threads = 1;
   std::string exec, scatter;
   std::vector<std::string> effects;

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/history.hpp"
+#include "io/peak_memory.hpp"
 #include "io/progress.hpp"
 #include "io/summary.hpp"
 #include "tests/io/results_sample.hpp"
@@ -64,6 +66,7 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   s.message = "particle 7 left the grid";
   s.steps = 1234567;
   s.time = 1e-3;
+  s.peak_memory_bytes = 3'000'000'000;
   s.effects = {"cracks", "contact"};
   s.tasks = {{"particle to grid", "", 12, 0.5}};
   s.energy.kinetic = 2;
@@ -77,12 +80,13 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   write_summary(folder / "summary.json", s);
   const auto j = nlohmann::json::parse(sample::text_of(folder / "summary.json"));
   for (const char* key :
-       {"status", "steps", "time", "wall_seconds", "particles", "particle_steps_per_second", "threads", "exec",
-        "scatter", "effects", "tasks", "energy", "momentum_error", "warnings", "tips", "probes"})
+       {"status", "steps", "time", "wall_seconds", "particles", "particle_steps_per_second", "peak_memory_bytes",
+        "threads", "exec", "scatter", "effects", "tasks", "energy", "momentum_error", "warnings", "tips", "probes"})
     EXPECT_TRUE(j.contains(key)) << key;
   for (const char* key : {"kinetic", "strain", "external_work", "damping", "contact", "fracture", "numerical"})
     EXPECT_TRUE(j["energy"][key].is_number()) << key;
   EXPECT_EQ(j["steps"], 1234567);
+  EXPECT_EQ(j["peak_memory_bytes"], 3'000'000'000) << "more than 32 bits";
   EXPECT_EQ(j["message"], "particle 7 left the grid");
   EXPECT_TRUE(j["energy"]["relative_error"].is_null()) << "not a number";
   EXPECT_TRUE(j["angular_momentum_error"].is_null()) << "infinite";
@@ -98,6 +102,23 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   EXPECT_EQ(j["reactions"]["upper"][1], -2);
 }
 
+TEST(ResultsSummary, PeakMemoryIsTheMostThatTheProcessHasHeld) {
+  const auto hold = [](std::size_t bytes) {
+    std::vector<char> block(bytes);
+    for (std::size_t i = 0; i < bytes; i += 512)
+      block[i] = 1;  // else the system may not give it
+    return std::accumulate(block.begin(), block.end(), 0L);
+  };
+  const long first = peak_memory();
+  EXPECT_LT(first, 16L << 30) << "in bytes, not in something smaller";
+  const long block = first + (64L << 20);  // more than all that other tests of this process have held
+  ASSERT_GT(hold(static_cast<std::size_t>(block)), 0);
+  const long peak = peak_memory();
+  EXPECT_GE(peak, block);
+  EXPECT_LE(peak, block + first + (8L << 20));
+  EXPECT_GE(peak_memory(), block) << "it does not fall when memory is given back";
+}
+
 TEST(ResultsProgress, TimesAreInUnitsForPeople) {
   EXPECT_EQ(format_time(0), "0 s");
   EXPECT_EQ(format_time(1.5), "1.50 s");
@@ -108,6 +129,15 @@ TEST(ResultsProgress, TimesAreInUnitsForPeople) {
   EXPECT_EQ(format_duration(59.6), "1 min 0 s");
   EXPECT_EQ(format_duration(3725), "1 h 2 min");
   EXPECT_EQ(format_duration(INFINITY), "unknown");
+}
+
+TEST(ResultsProgress, MemoryIsInUnitsForPeople) {
+  EXPECT_EQ(format_bytes(0), "0 B");
+  EXPECT_EQ(format_bytes(999), "999 B");
+  EXPECT_EQ(format_bytes(1000), "1.00 kB");
+  EXPECT_EQ(format_bytes(999'600), "1.00 MB");
+  EXPECT_EQ(format_bytes(85'340'000), "85.3 MB");
+  EXPECT_EQ(format_bytes(2'166'880'000), "2.17 GB");
 }
 
 TEST(ResultsProgress, TheLineSaysHowFarHowFastAndHowLong) {
