@@ -55,11 +55,11 @@ FrameWriter::FrameWriter(fs::path folder, const Scene& scene, int first_frame)
     times_.push_back(read_vtkhdf_time(path));
 }
 
-void FrameWriter::write_one(const std::string& prefix, const PolyData& data, double time) const {
+void FrameWriter::write_one(const std::string& prefix, PolyData data, double time) const {
   const fs::path path = folder_ / "frames" / frame_name(prefix, next_);
-  write_vtkhdf(path.string() + ".vtkhdf", data, time);
   if (scene_.output.sidecar == Sidecar::vtp)
     write_vtp(path.string() + ".vtp", data, time);
+  write_vtkhdf(path.string() + ".vtkhdf", std::move(data), time);
 }
 
 void FrameWriter::write(double time, const Particles<double, 2>& particles, const Cracks& cracks) {

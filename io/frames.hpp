@@ -20,6 +20,7 @@ namespace riven {
 ///   deformation_gradient    F11 F12 F21 F22 (where it is kept);
 ///   fringe                  cos(k sqrt((sxx - syy)^2 + 4 sxy^2)), k the scene's fringe constant (where asked for;
 ///                           isochromatic fringes, Nairn 2003, eq. 23).
+/// The arrays are made when they are written: particles and scene must outlive them, and stay as they are.
 PolyData particle_poly(const Particles<double, 2>& particles, const Scene& scene);
 
 /// One line per crack, through the points of its plane. Point arrays:
@@ -41,7 +42,7 @@ class FrameWriter {
   int next_frame() const { return next_; }
 
  private:
-  void write_one(const std::string& prefix, const PolyData& data, double time) const;
+  void write_one(const std::string& prefix, PolyData data, double time) const;
   void write_indices() const;
 
   std::filesystem::path folder_;

@@ -1,21 +1,38 @@
 // Points with cells and named arrays: what every writer of frames takes. Plain data, always 3 coordinates.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace riven {
 
+using PolyValues = std::variant<std::vector<double>, std::vector<std::int64_t>>;
+
 /// One value per point or per cell: rows of `components` numbers. The name holds neither '/' nor '.'.
 struct PolyArray {
   std::string name;
   int components = 1;
   std::string unit;  ///< SI; empty where there is none
-  std::variant<std::vector<double>, std::vector<std::int64_t>> data;
+  PolyValues data;
+  /// Makes the values, where they are many, each time that they are wanted; `data` then only says of which type they
+  /// are. A frame of particles takes more memory than their state does, one array of it at a time a sixth of that.
+  std::function<PolyValues()> make = {};
 
-  std::size_t size() const {
-    return std::visit([](const auto& v) { return v.size(); }, data);
+  /// f(vector of the values).
+  template <class F>
+  void visit(const F& f) const {
+    if (make)
+      std::visit(f, make());
+    else
+      std::visit(f, data);
+  }
+  /// From now on holds the values.
+  void settle() {
+    if (make)
+      data = make();
+    make = {};
   }
 };
 

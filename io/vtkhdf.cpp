@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include "core/error.hpp"
 
@@ -67,7 +68,7 @@ void VtkHdfWriter::check_same_arrays(const PolyData& data) {
 
 // The reader finds the offsets of a step at (cells before it) + (parts before it), because each part has one more
 // offset than cells. Repeating a part therefore repeats all four kinds of cells.
-void VtkHdfWriter::append_topology(const PolyData& data) {
+void VtkHdfWriter::append_topology(PolyData& data) {
   const bool same = steps_ > 0 && data.kind == kind_ && data.point_count() == point_count_ &&
                     data.offsets == offsets_ && data.connectivity == connectivity_;
   if (same)
@@ -91,20 +92,22 @@ void VtkHdfWriter::append_topology(const PolyData& data) {
     ids_[k] += static_cast<std::int64_t>(ids.size());
   }
   kind_ = data.kind;
-  connectivity_ = data.connectivity;
-  offsets_ = data.offsets;
+  connectivity_ = std::move(data.connectivity);
+  offsets_ = std::move(data.offsets);
   point_count_ = data.point_count();
 }
 
 void VtkHdfWriter::append_arrays(const std::string& group, const std::vector<PolyArray>& arrays, std::int64_t rows,
                                  std::int64_t& done) {
   for (const PolyArray& a : arrays) {
-    if (a.name.find_first_of("/.") != std::string::npos || a.size() != static_cast<std::size_t>(rows * a.components))
-      fail({Exit::internal, "an array has no proper name, or not one row per item", file_.path().string(), a.name, "",
-            ""});
     const std::string dataset = in(in(root, group), a.name);
     const std::size_t width = a.components == 1 ? 0 : static_cast<std::size_t>(a.components);
-    std::visit([&](const auto& v) { file_.append(dataset, v.data(), static_cast<std::size_t>(rows), width); }, a.data);
+    a.visit([&](const auto& v) {
+      if (a.name.find_first_of("/.") != std::string::npos || v.size() != static_cast<std::size_t>(rows * a.components))
+        fail({Exit::internal, "an array has no proper name, or not one row per item", file_.path().string(), a.name, "",
+              ""});
+      file_.append(dataset, v.data(), static_cast<std::size_t>(rows), width);
+    });
     if (steps_ == 0 && !a.unit.empty())
       file_.put_attribute(dataset, "unit", a.unit);
     append_one(file_, in(in(steps, group + "Offsets"), a.name), done);
@@ -112,19 +115,23 @@ void VtkHdfWriter::append_arrays(const std::string& group, const std::vector<Pol
   done += rows;
 }
 
-void VtkHdfWriter::append(const PolyData& data, double time) {
+void VtkHdfWriter::append(PolyData data, double time) {
   check_same_arrays(data);
+  const std::int64_t points = data.point_count(), cells = data.cell_count();
   append_topology(data);
-  file_.append(root + "/Points", data.points.data(), static_cast<std::size_t>(data.point_count()), 3);
+  data.connectivity = std::vector<std::int64_t>{};  // not {}, which keeps the memory
+  data.offsets = std::vector<std::int64_t>{};
+  file_.append(root + "/Points", data.points.data(), static_cast<std::size_t>(points), 3);
+  data.points = std::vector<double>{};
   append_one(file_, steps + "/Values", time);
   append_one(file_, steps + "/PartOffsets", part_);
   append_one(file_, steps + "/NumberOfParts", std::int64_t{1});
   append_one(file_, steps + "/PointOffsets", points_);
   file_.append(steps + "/CellOffsets", cells_at_.data(), 1, cells_at_.size());
   file_.append(steps + "/ConnectivityIdOffsets", ids_at_.data(), 1, ids_at_.size());
-  points_ += data.point_count();
-  append_arrays("PointData", data.point_arrays, data.point_count(), point_rows_);
-  append_arrays("CellData", data.cell_arrays, data.cell_count(), cell_rows_);
+  points_ += points;
+  append_arrays("PointData", data.point_arrays, points, point_rows_);
+  append_arrays("CellData", data.cell_arrays, cells, cell_rows_);
   ++steps_;
 }
 
@@ -133,25 +140,28 @@ void VtkHdfWriter::commit() {
   file_.commit();
 }
 
-void write_vtkhdf(const fs::path& path, const PolyData& data, double time) {
+void write_vtkhdf(const fs::path& path, PolyData data, double time) {
   VtkHdfWriter writer(path);
-  writer.append(data, time);
+  writer.append(std::move(data), time);
   writer.commit();
 }
 
 namespace {
 
-std::vector<PolyArray> read_arrays(const HdfFile& file, const std::string& group) {
+/// Arrays that are read when they are wanted.
+std::vector<PolyArray> list_arrays(const std::shared_ptr<const HdfFile>& file, const std::string& group) {
   std::vector<PolyArray> arrays;
-  for (const std::string& name : file.children(group)) {
+  for (const std::string& name : file->children(group)) {
     const std::string dataset = in(group, name);
-    PolyArray a{name, 1, file.has_attribute(dataset, "unit") ? file.text_attribute(dataset, "unit") : "", {}};
-    if (const auto extent = file.extent(dataset); extent.size() == 2)
+    PolyArray a{name, 1, file->has_attribute(dataset, "unit") ? file->text_attribute(dataset, "unit") : "", {}};
+    if (const auto extent = file->extent(dataset); extent.size() == 2)
       a.components = static_cast<int>(extent[1]);
-    if (file.is_integer(dataset))
-      a.data = file.read<std::int64_t>(dataset);
-    else
-      a.data = file.read<double>(dataset);
+    if (file->is_integer(dataset)) {
+      a.data = std::vector<std::int64_t>{};
+      a.make = [=]() -> PolyValues { return file->read<std::int64_t>(dataset); };
+    } else {
+      a.make = [=]() -> PolyValues { return file->read<double>(dataset); };
+    }
     arrays.push_back(std::move(a));
   }
   return arrays;
@@ -165,21 +175,30 @@ HdfFile open_frame(const fs::path& path) {
   return file;
 }
 
+/// A frame whose arrays are read when they are wanted.
+TimedPolyData look_into_frame(const fs::path& path) {
+  const auto file = std::make_shared<const HdfFile>(open_frame(path));
+  TimedPolyData frame;
+  frame.time = file->read<double>(steps + "/Values").at(0);
+  PolyData& d = frame.data;
+  d.points = file->read<double>(root + "/Points");
+  const bool lines = file->read<std::int64_t>(root + "/Lines/NumberOfCells").at(0) > 0;
+  d.kind = lines ? PolyData::Cells::lines : PolyData::Cells::vertices;
+  const std::string group = in(root, topologies[index_of(d.kind)]);
+  d.connectivity = file->read<std::int64_t>(in(group, "Connectivity"));
+  d.offsets = file->read<std::int64_t>(in(group, "Offsets"));
+  d.point_arrays = list_arrays(file, root + "/PointData");
+  d.cell_arrays = list_arrays(file, root + "/CellData");
+  return frame;
+}
+
 }  // namespace
 
 TimedPolyData read_vtkhdf(const fs::path& path) {
-  const HdfFile file = open_frame(path);
-  TimedPolyData frame;
-  frame.time = file.read<double>(steps + "/Values").at(0);
-  PolyData& d = frame.data;
-  d.points = file.read<double>(root + "/Points");
-  const bool lines = file.read<std::int64_t>(root + "/Lines/NumberOfCells").at(0) > 0;
-  d.kind = lines ? PolyData::Cells::lines : PolyData::Cells::vertices;
-  const std::string group = in(root, topologies[index_of(d.kind)]);
-  d.connectivity = file.read<std::int64_t>(in(group, "Connectivity"));
-  d.offsets = file.read<std::int64_t>(in(group, "Offsets"));
-  d.point_arrays = read_arrays(file, root + "/PointData");
-  d.cell_arrays = read_arrays(file, root + "/CellData");
+  TimedPolyData frame = look_into_frame(path);
+  for (auto* arrays : {&frame.data.point_arrays, &frame.data.cell_arrays})
+    for (PolyArray& a : *arrays)
+      a.settle();
   return frame;
 }
 
@@ -214,8 +233,8 @@ int assemble_vtkhdf(const fs::path& folder, const std::string& prefix, const fs:
     return 0;
   VtkHdfWriter writer(out);
   for (const fs::path& path : frames) {
-    const TimedPolyData frame = read_vtkhdf(path);
-    writer.append(frame.data, frame.time);
+    TimedPolyData frame = look_into_frame(path);
+    writer.append(std::move(frame.data), frame.time);
   }
   writer.commit();
   return static_cast<int>(frames.size());

@@ -21,12 +21,13 @@ struct TimedPolyData {
 class VtkHdfWriter {
  public:
   explicit VtkHdfWriter(const std::filesystem::path& path);
-  /// Throws Error (file) on a failed write, or (internal) when the arrays differ from those of the first step.
-  void append(const PolyData& data, double time);
+  /// Throws Error (file) on a failed write, or (internal) when the arrays differ from those of the first step. Takes
+  /// the data, to give back each part as soon as it is written.
+  void append(PolyData data, double time);
   void commit();
 
  private:
-  void append_topology(const PolyData& data);
+  void append_topology(PolyData& data);
   void append_arrays(const std::string& group, const std::vector<PolyArray>& arrays, std::int64_t rows,
                      std::int64_t& done);
   void check_same_arrays(const PolyData& data);
@@ -44,7 +45,7 @@ class VtkHdfWriter {
 };
 
 /// One frame in a file of its own.
-void write_vtkhdf(const std::filesystem::path& path, const PolyData& data, double time);
+void write_vtkhdf(const std::filesystem::path& path, PolyData data, double time);
 
 /// A file of one frame. Throws Error (file) when it cannot be read or is no such file.
 TimedPolyData read_vtkhdf(const std::filesystem::path& path);
@@ -55,7 +56,7 @@ double read_vtkhdf_time(const std::filesystem::path& path);
 /// The finished frames of a folder in the order of their numbers: files "<prefix>_<digits>.vtkhdf".
 std::vector<std::filesystem::path> list_frames(const std::filesystem::path& folder, const std::string& prefix);
 
-/// Joins the finished frames of a folder into one file with time steps, one frame in memory at a time.
+/// Joins the finished frames of a folder into one file with time steps, one array of a frame in memory at a time.
 /// Returns how many there were; without any, no file is written.
 int assemble_vtkhdf(const std::filesystem::path& folder, const std::string& prefix, const std::filesystem::path& out);
 

@@ -30,7 +30,7 @@ struct Appended {
   void arrays(const char* group, const std::vector<PolyArray>& all) {
     xml += fmt::format("<{}>\n", group);
     for (const PolyArray& a : all)
-      std::visit([&](const auto& values) { array(a.name, a.components, values); }, a.data);
+      a.visit([&](const auto& values) { array(a.name, a.components, values); });
     xml += fmt::format("</{}>\n", group);
   }
 };

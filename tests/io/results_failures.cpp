@@ -1,5 +1,6 @@
 // Full disks, folders that cannot be written, kills: what was finished stays, and the message says what happened.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include "io/atomic_file.hpp"
 #include "io/frames.hpp"
 #include "io/history.hpp"
+#include "io/peak_memory.hpp"
 #include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
 #include "tests/io/results_sample.hpp"
@@ -57,6 +59,48 @@ PolyData block(int n) {
   for (int a = 0; a < 8; ++a)
     d.point_arrays.push_back({"a" + std::to_string(a), 1, "", std::vector<double>(static_cast<std::size_t>(n), a)});
   return d;
+}
+
+/// By how much the most memory that a process of its own holds grows while it writes and joins two frames, bytes.
+long memory_of_frames(const std::filesystem::path& folder, int count) {
+  int ends[2];
+  if (pipe(ends) != 0)
+    return -1;
+  const pid_t child = fork();
+  if (child == 0) {
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays go back to the system when they are freed, as large ones always do
+    auto p = sample::particles(1);
+    p.each_array([&](auto& a) { a.resize(count); });
+    for (int k = 0; k < count; ++k)
+      p.id[k] = k;
+    Scene scene = sample::scene();
+    scene.output.sidecar = Sidecar::none;
+    const long before = peak_memory();
+    FrameWriter frames(folder, scene);
+    for (const double time : {0., 1.})
+      frames.write(time, p, sample::cracks(time));
+    frames.finish();
+    const long taken = peak_memory() - before;
+    const bool told = write_all(ends[1], &taken, sizeof taken);
+    std::exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  long taken = -1;
+  if (read(ends[0], &taken, sizeof taken) != sizeof taken)
+    taken = -1;
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return taken;
+}
+
+// A frame holds 232 bytes of each particle.
+TEST(ResultsFailures, FramesOfManyParticlesTakeLittleMemory) {
+  const sample::Folder folder;
+  constexpr int count = 600'000;
+  const long taken = memory_of_frames(folder.path(), count);
+  EXPECT_GT(taken, 10L * count) << "something must have been measured";
+  EXPECT_LT(taken, 90L * count) << "points, cells and the largest array, not all arrays";
+  EXPECT_EQ(read_vtkhdf_time(folder.path() / "frames/particles_000001.vtkhdf"), 1);
 }
 
 // From a file that cannot take its first byte to one that lacks only its last ones.
