@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
@@ -20,7 +21,9 @@ constexpr double rest = 20;        ///< segments' time without growth after whic
 
 class Growth {
  public:
-  Growth(Simulation& m, Tip& tip) : scene_(m.scene), s_(m.state), tip_(tip) {
+  /// `boxes`: around the cracks as they are.
+  Growth(Simulation& m, Tip& tip, const std::vector<Rectangle>& boxes)
+      : scene_(m.scene), s_(m.state), tip_(tip), boxes_(boxes) {
     const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
     rule_ = growth_rule(scene_, tip.crack);
     particle_ = scene_.cell / body.particles_per_cell;
@@ -42,7 +45,7 @@ class Growth {
       return wait();
     const double segment = tip_.running ? std::min(particle_, limit_ * (now_ - tip_.grew)) : particle_;
     if (const auto obstacle =
-            first_obstacle(s_.cracks, tip_.crack, tip_.last, *way, segment + 0.5 * particle_, 0.5 * particle_))
+            first_obstacle(s_.cracks, tip_.crack, tip_.last, *way, segment + 0.5 * particle_, 0.5 * particle_, boxes_))
       return join(*obstacle);
     const Vec2 to = x_ + segment * *way;
     if (!solid_ahead(s_, to, *way, particle_))
@@ -84,7 +87,7 @@ class Growth {
 
   /// Whether the edge of the solid, or another crack, lies within reach.
   bool ends_within(Vec2 way, double reach) const {
-    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0))
+    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0, boxes_))
       return true;
     for (double d = 0; d < reach; d += particle_)
       if (!solid_ahead(s_, x_ + d * way, way, particle_))
@@ -100,8 +103,10 @@ class Growth {
         continue;
       const Vec2 r = s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - x_;
       const double d = norm(r);
+      if (!(d > 0 && d < least))
+        continue;
       const Vec2 its = direction(t);
-      if (d > 0 && d < least && std::min({dot(r, ahead_) / d, -dot(r, its) / d, -dot(ahead_, its)}) > facing) {
+      if (std::min({dot(r, ahead_) / d, -dot(r, its) / d, -dot(ahead_, its)}) > facing) {
         least = d;
         nearest = &t;
       }
@@ -126,7 +131,7 @@ class Growth {
   /// Grows to a place with no solid ahead, and on: to the plane between the faces of an open crack, or away.
   void leave(Vec2 to, Vec2 way, double segment) {
     const double beyond = beyond_edge * scene_.cell;
-    const auto open = first_obstacle(s_.cracks, tip_.crack, tip_.last, way, segment + beyond, 0);
+    const auto open = first_obstacle(s_.cracks, tip_.crack, tip_.last, way, segment + beyond, 0, boxes_);
     if (open && solid_ahead(s_, open->place, way, scene_.cell))
       return join(*open, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
@@ -202,6 +207,7 @@ class Growth {
   const Scene& scene_;
   State<double, 2>& s_;
   Tip& tip_;
+  const std::vector<Rectangle>& boxes_;
   const GrowthRule* rule_;
   double particle_, thickness_, limit_;
   double now_;  ///< at the end of this step
@@ -213,9 +219,15 @@ class Growth {
 void grow_cracks(Simulation& m) {
   auto& s = m.state;
   tie_junctions(s.cracks, m.scene.cell);
-  for (Tip& tip : s.tips)
-    if (growth_due(tip, s.clock.step) && tip.step == s.clock.step)
-      Growth(m, tip).check();
+  std::vector<Rectangle> boxes;  // only once a tip is due
+  for (Tip& tip : s.tips) {
+    if (!growth_due(tip, s.clock.step) || tip.step != s.clock.step)
+      continue;
+    for (int c = static_cast<int>(boxes.size()); c < s.cracks.count(); ++c)
+      boxes.push_back(box_of(s.cracks, c));
+    Growth(m, tip, boxes).check();
+    boxes[static_cast<size_t>(tip.crack)] = box_of(s.cracks, tip.crack);
+  }
 }
 
 }  // namespace riven

@@ -16,6 +16,9 @@ namespace riven {
 
 namespace {
 
+/// Segments, and places, of one task.
+constexpr long segments_of_task = 64, places_of_task = 1024;
+
 /// For lattice place (i, j) the box [i + lower, i + upper] x [j + lower, j + upper], in cells.
 struct Reach {
   double lower, upper;
@@ -62,11 +65,13 @@ void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks
   bins.index.resize(nodes);
   std::memset(bins.index.data(), 0xff, static_cast<size_t>(nodes) * sizeof(int));
   int* index = bins.index.data();
-  exec::launch(space, segments, [&](long k) { places_of(k, [&](int p) { exec::atomic_add(index[p], 1); }); });
+  exec::launch_some(space, segments, segments_of_task,
+                    [&](long k) { places_of(k, [&](int p) { exec::atomic_add(index[p], 1); }); });
 
   // index + 1 is now the count of each place
-  bins.place.resize(nodes);
-  bins.start.resize(nodes + 1);
+  const long places = std::count_if(index, index + nodes, [](int count) { return count >= 0; });
+  bins.place.resize(places);
+  bins.start.resize(places + 1);
   int used = 0, total = 0;
   for (int p = 0; p < nodes; ++p) {
     if (index[p] < 0)
@@ -78,34 +83,33 @@ void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks
     total += count;
   }
   bins.start[used] = total;
-  bins.place.resize(used);
-  bins.start.resize(used + 1);
   bins.segment.resize(total);
   exec::Array<int> cursor(used);
-  exec::launch(space, segments, [&](long k) {
+  exec::launch_some(space, segments, segments_of_task, [&](long k) {
     places_of(k, [&](int p) {
       const int at = exec::atomic_add(cursor[index[p]], 1);
       bins.segment[bins.start[index[p]] + at] = static_cast<int>(k);
     });
   });
   int* segment = bins.segment.data();
-  exec::launch(space, used, [&](long u) { std::sort(segment + bins.start[u], segment + bins.start[u + 1]); });
+  exec::launch_some(space, used, places_of_task,
+                    [&](long u) { std::sort(segment + bins.start[u], segment + bins.start[u + 1]); });
 }
 
 /// Tiles that can reach a marked cell, and the cracks that are seen there.
 void mark_tiles(const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.tile_marked.resize(lattice.tiles_x() * lattice.tiles_y());
   fields.tile_marked.zero();
-  std::vector<std::pair<int, int>> seen;  // tile, crack; most repeat what the tile saw last
-  std::vector<int> last(static_cast<size_t>(fields.tile_marked.size()), -1);
+  std::vector<std::pair<int, int>> seen;  // tile, crack
+  // a tile's cells mostly see the crack that was noted there last
   for (long c = 0; c < fields.cells.size(); ++c)
     each_tile_around(lattice, fields.cells[c], 0, [&](int tile) {
-      fields.tile_marked[tile] = 1;
+      int& noted = fields.tile_marked[tile];
       for (int s = fields.cell_start[c]; s < fields.cell_start[c + 1]; ++s) {
         const int crack = cracks.crack[fields.cell_segment[s]];
-        if (last[static_cast<size_t>(tile)] != crack)
+        if (noted != crack + 1)
           seen.emplace_back(tile, crack);
-        last[static_cast<size_t>(tile)] = crack;
+        noted = crack + 1;
       }
     });
   std::sort(seen.begin(), seen.end());

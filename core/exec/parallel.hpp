@@ -43,6 +43,16 @@ void launch(const Space& space, long n, const F& f) {
 /// chunks do not depend on the number of threads.
 inline constexpr long chunk = 2048;
 
+/// The same for small items, of which one task takes some.
+template <class F>
+void launch_some(const Space& space, long n, long some, const F& f) {
+  launch(space, (n + some - 1) / some, [&](long task) {
+    const long end = std::min(n, (task + 1) * some);
+    for (long i = task * some; i < end; ++i)
+      f(i);
+  });
+}
+
 /// f(i) for i in [0, n); every item is a task of its own (a tile, a body, a chunk).
 template <class F>
 void parallel_tasks(const Space& space, const char* label, long n, const F& f) {

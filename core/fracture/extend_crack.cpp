@@ -45,8 +45,19 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
   return static_cast<int>(at);
 }
 
+Rectangle box_of(const Cracks& cracks, int crack) {
+  const int first = cracks.end_point(crack, false), last = cracks.end_point(crack, true);
+  Rectangle box{cracks.plane[first], cracks.plane[first]};
+  for (int k = first + 1; k <= last; ++k) {
+    const Vec2 x = cracks.plane[k];
+    box.lower = {std::min(box.lower.x, x.x), std::min(box.lower.y, x.y)};
+    box.upper = {std::max(box.upper.x, x.x), std::max(box.upper.y, x.y)};
+  }
+  return box;
+}
+
 std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
-                                       double beside) {
+                                       double beside, const std::vector<Rectangle>& boxes) {
   const int tip = cracks.end_point(crack, last), own = last ? tip - 1 : tip;
   const Vec2 x = cracks.plane[tip];
   std::optional<Obstacle> found;
@@ -59,20 +70,32 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
         {crack, last, other, point - cracks.start[static_cast<size_t>(other)], along}, a + along * (b - a), distance};
     return &*found;
   };
-  for (int k = 0; k + 1 < cracks.points(); ++k) {
-    if (cracks.crack[k] != cracks.crack[k + 1] || k == own)
-      continue;
-    // x + t way = a + u (b - a)
-    const Vec2 a = cracks.plane[k] - x, d = cracks.plane[k + 1] - cracks.plane[k];
-    const double across = cross(way, d);
-    if (across == 0)
-      continue;
-    const double t = cross(a, d) / across, u = cross(a, way) / across;
-    constexpr double joint = 1e-9;  // so that no way leads through a joint of two segments
-    if (t > 0 && t <= reach && u >= -joint && u <= 1 + joint)
-      take(t, k, std::clamp(u, 0., 1.));
-  }
+  const double far = 1.01 * (reach + beside);
+  const auto elsewhere = [&](int c) {
+    if (boxes.empty())
+      return false;
+    const Rectangle& box = boxes[static_cast<size_t>(c)];
+    return box.lower.x > x.x + far || box.upper.x < x.x - far || box.lower.y > x.y + far || box.upper.y < x.y - far;
+  };
+  std::vector<int> near;
   for (int c = 0; c < cracks.count(); ++c)
+    if (!elsewhere(c))
+      near.push_back(c);
+  for (const int c : near)
+    for (int k = cracks.end_point(c, false); k < cracks.end_point(c, true); ++k) {
+      if (k == own)
+        continue;
+      // x + t way = a + u (b - a)
+      const Vec2 a = cracks.plane[k] - x, d = cracks.plane[k + 1] - cracks.plane[k];
+      const double across = cross(way, d);
+      if (across == 0)
+        continue;
+      const double t = cross(a, d) / across, u = cross(a, way) / across;
+      constexpr double joint = 1e-9;  // so that no way leads through a joint of two segments
+      if (t > 0 && t <= reach && u >= -joint && u <= 1 + joint)
+        take(t, k, std::clamp(u, 0., 1.));
+    }
+  for (const int c : near)
     for (const bool other_last : {false, true}) {
       const int k = cracks.end_point(c, other_last);
       if (k == tip)

@@ -1,7 +1,9 @@
 // Points and junctions added at the ends of cracks.
 #pragma once
 #include <optional>
+#include <vector>
 
+#include "core/scene/scene.hpp"
 #include "core/state/cracks.hpp"
 
 namespace riven {
@@ -20,11 +22,14 @@ struct Obstacle {
   bool end_last = false;
 };
 
+/// The least rectangle around a crack.
+Rectangle box_of(const Cracks& cracks, int crack);
+
 /// The first crack in the way of the end of one that goes straight on for `reach` (m) along the unit vector `way`: one
 /// that it crosses, or one whose end lies within `beside` of the way. The crack itself counts, too, but for the segment
-/// at the end.
+/// at the end. `boxes`: around each crack, where they are known; cracks that lie elsewhere are not looked at.
 std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
-                                       double beside);
+                                       double beside, const std::vector<Rectangle>& boxes = {});
 
 /// Extends a crack up to an obstacle and ties its end to it.
 void join_crack(Cracks& cracks, const Obstacle& obstacle, Vec2 plane0, double h);
