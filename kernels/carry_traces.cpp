@@ -12,6 +12,9 @@ namespace riven {
 
 namespace {
 
+/// Cells, and nodes, of one task.
+constexpr long some = 512;
+
 /// Points and segments of the former lists in the new ones.
 class PointMap {
  public:
@@ -66,13 +69,13 @@ class Carrier {
   void carry() {
     points();
     tiles();
-    exec::launch(space_, f_.cells.size(), [&](long c) { turn_where_new(c); });
-    exec::launch(space_, was_.cells.size(), [&](long c) {
+    exec::launch_some(space_, f_.cells.size(), some, [&](long c) { turn_where_new(c); });
+    exec::launch_some(space_, was_.cells.size(), some, [&](long c) {
       if (any_of(map_.is_gone, was_.cell_segment.data() + was_.cell_start[c],
                  was_.cell_segment.data() + was_.cell_start[c + 1]))
         turn_cell(lattice_, was_.cells[c], f_);
     });
-    exec::launch(space_, f_.nodes.size(), [&](long n) { node(n); });
+    exec::launch_some(space_, f_.nodes.size(), some, [&](long n) { node(n); });
     f_.tally.zero();
     exec::parallel_tasks(space_, "carry traces", f_.marked_tiles.size(), [&](long m) { records(m); });
   }
