@@ -133,4 +133,12 @@ Scene growing_plate(double cell) {
   return s;
 }
 
+Scene thousand_plate() {
+  Scene s = shipped("thousand_cracks.toml");
+  const Rectangle plate = bounds(s.bodies[0].region);
+  pull_apart(s, plate.upper - plate.lower, 20);
+  s.growth->toughness = 0.16e6;
+  return s;
+}
+
 }  // namespace riven::perf

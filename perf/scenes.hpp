@@ -38,4 +38,8 @@ Scene many_plate(double edge);
 /// The shipped plate with ten cracks, pulled so fast that all of them grow a few hundred steps later.
 Scene growing_plate(double cell);
 
+/// The shipped plate with 1,000 cracks, of so little toughness that they begin to grow some sixty steps after it is
+/// pulled.
+Scene thousand_plate();
+
 }  // namespace riven::perf

@@ -26,13 +26,14 @@ class Turns {
     std::vector<double> before;
     for (const Task& t : m.tasks)
       before.push_back(t.seconds);
-    const long touched = m.contact_after.touching;
+    const long touched = m.contact_after.touching, points = m.state.cracks.points();
     const double start = exec::Stopwatch::now();
     runner_.run(steps);
     seconds_.push_back((exec::Stopwatch::now() - start) / steps);
     for (size_t t = 0; t < before.size(); ++t)
       task_[t].push_back((m.tasks[t].seconds - before[t]) / steps);
     contacts_ += m.contact_after.touching - touched;
+    grown_ += m.state.cracks.points() - points;
     steps_ += steps;
   }
 
@@ -52,6 +53,7 @@ class Turns {
     for (const ArrayReport& a : list_arrays(m.state))
       (a.name.rfind("particles", 0) == 0 ? r.particle_bytes : r.other_bytes) += a.bytes;
     r.contacts = contacts_;
+    r.grown = grown_;
     r.momentum_error = m.state.ledger.momentum.error();
     r.energy_error = m.state.ledger.energy.relative_error();
     return r;
@@ -61,7 +63,7 @@ class Turns {
   Runner runner_;
   std::vector<double> seconds_;
   std::vector<std::vector<double>> task_;  ///< [tasks][turns] seconds per step
-  long contacts_ = 0, steps_ = 0;
+  long contacts_ = 0, grown_ = 0, steps_ = 0;
 };
 
 }  // namespace

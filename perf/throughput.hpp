@@ -18,9 +18,10 @@ struct Group {
   int steps;    ///< of a turn
   int turns;
   std::function<std::vector<Entrant>()> entrants;  ///< makes the scenes; throws Error
+  bool asked_for = false;                          ///< runs only when it is named
 };
 
-/// block, large, methods, sent, growing, many.
+/// block, large, methods, sent, growing, many, thousand.
 std::vector<Group> throughput_groups();
 
 struct TaskTime {
@@ -39,6 +40,7 @@ struct Result {
   std::vector<TaskTime> tasks;
   long particle_bytes = 0, other_bytes = 0;  ///< of the arrays at the end
   long contacts = 0;                         ///< pairs of fields that touched after the update, in all turns
+  long grown = 0;                            ///< points by which cracks have grown, in all turns
   double momentum_error = 0;                 ///< see Momentum::error
   double energy_error = 0;                   ///< see Energy::relative_error
 

@@ -31,7 +31,7 @@ void hurry(Group& g) {
 std::vector<Group> chosen(const Options& o) {
   std::vector<Group> list = throughput_groups();
   std::erase_if(list, [&](const Group& g) {
-    return o.only.empty() ? o.quick && g.name == "large"
+    return o.only.empty() ? g.asked_for || (o.quick && g.name == "large")
                           : std::find(o.only.begin(), o.only.end(), g.name) == o.only.end();
   });
   if (o.quick)
@@ -53,6 +53,7 @@ nlohmann::json to_json(const Result& r, const std::vector<Result>& all, double f
                       {"particle_bytes", r.particle_bytes},
                       {"other_bytes", r.other_bytes},
                       {"contacts", r.contacts},
+                      {"grown", r.grown},
                       {"momentum_error", r.momentum_error},
                       {"energy_error", r.energy_error},
                       {"tasks", tasks}};
