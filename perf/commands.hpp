@@ -11,6 +11,8 @@ namespace riven::perf {
 void add_machine(CLI::App& app);
 /// `riven-perf throughput`: particle-steps per second of whole steps, and what cracks cost.
 void add_throughput(CLI::App& app);
+/// `riven-perf kernels`: time of each task beside the machine's roofline.
+void add_kernels(CLI::App& app);
 /// `riven-perf gate`: fails when a scene takes more instructions or time than its baseline allows.
 void add_gate(CLI::App& app);
 

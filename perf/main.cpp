@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   riven::perf::add_machine(app);
   riven::perf::add_throughput(app);
+  riven::perf::add_kernels(app);
   riven::perf::add_gate(app);
   try {
     app.parse(argc, argv);
