@@ -8,6 +8,7 @@
 #include "core/state/make_state.hpp"
 #include "kernels/tally.hpp"
 #include "perf/median.hpp"
+#include "perf/operations.hpp"
 #include "perf/runner.hpp"
 
 namespace riven::perf {
@@ -90,6 +91,21 @@ std::vector<Result> measure(const Group& group, const std::vector<int>& threads)
   for (const auto& one : all)
     results.push_back(one->result());
   return results;
+}
+
+Bounds step_bounds(const Result& result, const std::vector<MachineRates>& rates) {
+  const auto r =
+      std::find_if(rates.begin(), rates.end(), [&](const MachineRates& x) { return x.threads == result.threads; });
+  if (r == rates.end())
+    fail({Exit::internal, "no rates of the machine for this number of threads", result.name});
+  const bool in_cache = result.particle_bytes + result.other_bytes < last_level_cache();
+  return bounds_of(flops_per_particle_step, in_cache ? 0 : bytes_per_particle_step, *r);
+}
+
+Shares bound_shares(const Result& result, const std::vector<MachineRates>& rates) {
+  const Bounds least = step_bounds(result, rates);
+  const double rate = result.best_rate();
+  return {rate * least.arithmetic, rate * least.memory, rate * least.least_time()};
 }
 
 Overhead crack_overhead(const Result& result, const std::vector<Result>& all) {

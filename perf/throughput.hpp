@@ -4,12 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "perf/roofline.hpp"
 #include "perf/scenes.hpp"
 
 namespace riven::perf {
 
-/// Floating-point operations of one step of one particle in the crack-free block, an addition or a multiplication each.
-constexpr double flops_per_particle_step = 430;
+/// What `riven-perf kernels --filter '^large block/whole step'` counts for one step of one particle in the block
+/// without cracks (FLIP, USL, 1,440,000 particles): 276.0 flops in particle to grid, 380.3 in grid to particle, 3.6 a
+/// particle in advance grid. Shape functions that both passes compute and lanes without a particle are among them.
+constexpr double flops_per_particle_step = 660;
+/// And bytes of the arrays that this step reads from and writes to memory, with a last-level cache of 32 MiB: 105 in
+/// particle to grid and 151 in grid to particle, which pass over the particles one after the other, and 16 of the grid.
+constexpr double bytes_per_particle_step = 272;
 
 /// Entrants that take turns, and how long a turn is.
 struct Group {
@@ -60,9 +66,20 @@ std::vector<Result> measure(const Group& group, const std::vector<int>& threads)
 /// What cracks cost `result`, whose partner is among `all`. Throws Error (internal) if it is not.
 Overhead crack_overhead(const Result& result, const std::vector<Result>& all);
 
-/// Rates, shares of the FMA bound (`fma[i]`: flop/s on `threads[i]`), speed-up, memory and overheads of one group.
-std::string rate_table(const std::vector<Result>& results, const std::vector<int>& threads,
-                       const std::vector<double>& fma);
+/// What the machine would allow the block's step at the best, with the threads of the result, in seconds per particle.
+/// Arrays that fit into the last-level cache ask nothing of the memory.
+Bounds step_bounds(const Result& result, const std::vector<MachineRates>& rates);
+/// Which share of those bounds, as rates, the best turn reaches.
+struct Shares {
+  double arithmetic = 0, memory = 0;
+  double bound = 0;  ///< of the lower one
+};
+Shares bound_shares(const Result& result, const std::vector<MachineRates>& rates);
+
+/// Bounds of the block's step on each number of threads, million particle-steps per second.
+std::string bound_table(const std::vector<MachineRates>& rates);
+/// Rates, shares of the bounds, speed-up over the first of `rates`, memory and overheads of one group.
+std::string rate_table(const std::vector<Result>& results, const std::vector<MachineRates>& rates);
 /// Nanoseconds per particle and step of each task, one column for each entrant on `threads`.
 std::string task_table(const std::vector<Result>& results, int threads);
 

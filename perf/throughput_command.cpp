@@ -39,7 +39,8 @@ std::vector<Group> chosen(const Options& o) {
   return list;
 }
 
-nlohmann::json to_json(const Result& r, const std::vector<Result>& all, double fma) {
+nlohmann::json to_json(const Result& r, const std::vector<Result>& all, const std::vector<MachineRates>& rates) {
+  const Shares share = bound_shares(r, rates);
   nlohmann::json tasks = nlohmann::json::array();
   for (const TaskTime& t : r.tasks)
     tasks.push_back({{"label", t.label}, {"effect", t.effect}, {"nanoseconds_per_particle_step", t.nanoseconds}});
@@ -49,7 +50,9 @@ nlohmann::json to_json(const Result& r, const std::vector<Result>& all, double f
                       {"steps", r.steps},
                       {"seconds_per_step", r.seconds},
                       {"particle_steps_per_second", {{"best", r.best_rate()}, {"median", r.median_rate()}}},
-                      {"fma_share", r.best_rate() * flops_per_particle_step / fma},
+                      {"fma_share", share.arithmetic},
+                      {"memory_share", share.memory},
+                      {"bound_share", share.bound},
                       {"particle_bytes", r.particle_bytes},
                       {"other_bytes", r.other_bytes},
                       {"contacts", r.contacts},
@@ -64,38 +67,37 @@ nlohmann::json to_json(const Result& r, const std::vector<Result>& all, double f
   return j;
 }
 
-void print_group(const Group& g, const std::vector<Result>& results, const std::vector<int>& threads,
-                 const std::vector<double>& fma) {
-  fmt::print("\n{}: {}; {} turns of {} steps\n{}\n", g.name, g.title, g.turns, g.steps,
-             rate_table(results, threads, fma));
-  for (const int n : threads)
-    fmt::print("{}\n", task_table(results, n));
+void print_group(const Group& g, const std::vector<Result>& results, const std::vector<MachineRates>& rates) {
+  fmt::print("\n{}: {}; {} turns of {} steps\n{}\n", g.name, g.title, g.turns, g.steps, rate_table(results, rates));
+  for (const MachineRates& r : rates)
+    fmt::print("{}\n", task_table(results, r.threads));
   std::fflush(stdout);
 }
 
 void throughput(const Options& o) {
   std::vector<MachineRates> rates;
-  std::vector<double> fma;
-  for (const int n : o.threads) {
+  for (const int n : o.threads)
     rates.push_back(measure_machine(n));
-    fma.push_back(rates.back().fma);
-  }
-  nlohmann::json out = {{"machine", machine_name()}, {"flops_per_particle_step", flops_per_particle_step}};
+  nlohmann::json out = {{"machine", machine_name()},
+                        {"flops_per_particle_step", flops_per_particle_step},
+                        {"bytes_per_particle_step", bytes_per_particle_step}};
   for (const MachineRates& r : rates)
     out["rates"].push_back(
         {{"threads", r.threads}, {"triad_bytes_per_second", r.triad}, {"fma_flops_per_second", r.fma}});
   if (!o.json)
-    fmt::print("{}\n{}FMA %: share of the rate that the FMA units would allow at {} flops per particle-step\n",
-               machine_name(), table(rates), flops_per_particle_step);
+    fmt::print(
+        "{}\n{}\n"
+        "Bounds of a step, with the {} flops per particle of FLIP and USL and, where the arrays do not fit into the\n"
+        "caches, its {} bytes. FMA %, mem. %: shares of them that the best turn reaches; bound %: of the lower "
+        "one.\n{}",
+        machine_name(), table(rates), flops_per_particle_step, bytes_per_particle_step, bound_table(rates));
   for (const Group& g : chosen(o)) {
     const std::vector<Result> results = measure(g, o.threads);
     if (!o.json)
-      print_group(g, results, o.threads, fma);
+      print_group(g, results, rates);
     nlohmann::json runs = nlohmann::json::array();
-    for (const Result& r : results) {
-      const auto i = std::find(o.threads.begin(), o.threads.end(), r.threads) - o.threads.begin();
-      runs.push_back(to_json(r, results, fma[static_cast<size_t>(i)]));
-    }
+    for (const Result& r : results)
+      runs.push_back(to_json(r, results, rates));
     out["groups"].push_back({{"name", g.name}, {"title", g.title}, {"runs", runs}});
   }
   if (o.json)

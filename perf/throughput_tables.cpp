@@ -33,25 +33,34 @@ std::vector<std::string> labels_of(const std::vector<const Result*>& results) {
 
 }  // namespace
 
-std::string rate_table(const std::vector<Result>& results, const std::vector<int>& threads,
-                       const std::vector<double>& fma) {
-  std::string text =
-      fmt::format("{:<16} {:>7} {:>9} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9} {:>15}\n", "", "threads", "best M/s",
-                  "median", "ns/step", "FMA %", "speed-up", "B/part.", "momentum", "crack cost %");
+std::string bound_table(const std::vector<MachineRates>& rates) {
+  std::string text = fmt::format("{:>7} {:>15} {:>15}\n", "threads", "arithmetic M/s", "memory M/s");
+  for (const MachineRates& r : rates) {
+    const Bounds b = bounds_of(flops_per_particle_step, bytes_per_particle_step, r);
+    text += fmt::format("{:>7} {:>15.1f} {:>15.1f}\n", r.threads, 1e-6 / b.arithmetic, 1e-6 / b.memory);
+  }
+  return text;
+}
+
+std::string rate_table(const std::vector<Result>& results, const std::vector<MachineRates>& rates) {
+  std::string text = fmt::format("{:<16} {:>7} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>15}\n", "",
+                                 "threads", "best M/s", "median", "ns/step", "FMA %", "mem. %", "bound %", "speed-up",
+                                 "B/part.", "momentum", "crack cost %");
   for (const Result& r : results) {
-    const auto i = static_cast<size_t>(std::find(threads.begin(), threads.end(), r.threads) - threads.begin());
-    const double bound = fma[i] / flops_per_particle_step;
-    const double speed_up = r.best_rate() / of(results, r.name, threads.front()).best_rate();
+    const Shares share = bound_shares(r, rates);
+    const std::string memory = share.memory > 0 ? fmt::format("{:.1f}", 100 * share.memory) : "-";
+    const double speed_up = r.best_rate() / of(results, r.name, rates.front().threads).best_rate();
     std::string cost;
     if (!r.without_cracks.empty()) {
       const Overhead o = crack_overhead(r, results);
       cost = fmt::format("{:.1f} (best {:.1f})", 100 * o.median, 100 * o.best);
     }
-    text += fmt::format("{:<16} {:>7} {:>9.2f} {:>9.2f} {:>9.1f} {:>7.1f} {:>9.2f} {:>9.0f} {:>9.0e} {:>15}\n", r.name,
-                        r.threads, 1e-6 * r.best_rate(), 1e-6 * r.median_rate(), 1e9 / r.median_rate(),
-                        100 * r.best_rate() / bound, speed_up,
-                        static_cast<double>(r.particle_bytes + r.other_bytes) / static_cast<double>(r.particles),
-                        r.momentum_error, cost);
+    text += fmt::format(
+        "{:<16} {:>7} {:>9.2f} {:>9.2f} {:>9.1f} {:>7.1f} {:>7} {:>7.1f} {:>9.2f} {:>9.0f} {:>9.0e} {:>15}\n", r.name,
+        r.threads, 1e-6 * r.best_rate(), 1e-6 * r.median_rate(), 1e9 / r.median_rate(), 100 * share.arithmetic, memory,
+        100 * share.bound, speed_up,
+        static_cast<double>(r.particle_bytes + r.other_bytes) / static_cast<double>(r.particles), r.momentum_error,
+        cost);
   }
   return text;
 }
