@@ -91,8 +91,8 @@ void apply_loads(const Plan& plan, State<Real, 2>& s) {
         const long i = s.loads.position[static_cast<size_t>(g.id[k])];
         const Vec2 force = g.share[k] * total, x{p.x[0][i], p.x[1][i]};
         const DomainSetting<Real, 2>& d = s.domains[p.body[i]];
-        const auto a = Shape::axis(Real((x.x - l.origin.x) / l.h), d.axis[0]);
-        const auto b = Shape::axis(Real((x.y - l.origin.y) / l.h), d.axis[1]);
+        const auto a = Shape::axis((x.x - l.origin.x) / l.h, d.axis[0]);
+        const auto b = Shape::axis((x.y - l.origin.y) / l.h, d.axis[1]);
         const std::uint32_t word = s.fields.extra.empty() ? 0 : s.fields.fields[i];
         for (int j = 0; j < Shape::width; ++j)
           for (int m = 0; m < Shape::width; ++m) {

@@ -16,9 +16,9 @@ namespace riven {
 /// Particles' positions and how to turn them into weights.
 template <class Real>
 struct Positions {
-  const Real* x;
-  const Real* y;
-  Real origin_x, origin_y, inv_h;
+  const double* x;
+  const double* y;
+  double origin_x, origin_y, inv_h;
   BodyLookup<DomainSetting<Real, 2>> domain;
 };
 
@@ -47,8 +47,9 @@ struct Block {
  private:
   template <class DomainOf>
   RIVEN_INLINE void weigh_each(const Positions<Real>& p, long first, const DomainOf& domain_of) {
-    const Real* x = p.x + first;
-    const Real* y = p.y + first;
+    const double* x = p.x + first;
+    const double* y = p.y + first;
+    const Real inv_h = Real(p.inv_h);
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const DomainSetting<Real, 2>& d = domain_of(first + k);
       const Axis<Real, N> a = Shape::axis((x[k] - p.origin_x) * p.inv_h, d.axis[0]);
@@ -56,8 +57,8 @@ struct Block {
       for (int i = 0; i < N; ++i) {
         sx[i][k] = a.s[i];
         sy[i][k] = b.s[i];
-        gx[i][k] = a.g[i] * p.inv_h;
-        gy[i][k] = b.g[i] * p.inv_h;
+        gx[i][k] = a.g[i] * inv_h;
+        gy[i][k] = b.g[i] * inv_h;
       }
       ix[k] = a.base;
       iy[k] = b.base;

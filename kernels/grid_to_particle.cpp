@@ -89,13 +89,13 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
   const WatchTiles<Real, true, Stress> see(s.watch);
-  const TileRun<Real> tiles{
-      s.particles.tiles,
-      s.grid.lattice,
-      extra,
-      {{p.x, p.y, p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr,
-        Stress ? p.Fxx : nullptr, Stress ? p.Fxy : nullptr, Stress ? p.Fyx : nullptr, Stress ? p.Fyy : nullptr},
-       {q, High ? high : nullptr}}};
+  const TileRun<Real> tiles{s.particles.tiles,
+                            s.grid.lattice,
+                            extra,
+                            {{p.x, p.y, Stress ? p.Fxx : nullptr, Stress ? p.Fxy : nullptr, Stress ? p.Fyx : nullptr,
+                              Stress ? p.Fyy : nullptr},
+                             {p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr},
+                             {q, High ? high : nullptr}}};
   each_tile(space, "grid to particle", tiles, see,
             [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
@@ -135,7 +135,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, true, false> see(s.watch);
   const TileRun<Real> tiles{
-      s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y, p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
+      s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {

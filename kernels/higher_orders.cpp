@@ -23,7 +23,7 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const Real* mass = s.particles.mass.data();
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
-  const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y, mass}, {term, next}}};
+  const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y}, {mass}, {term, next}}};
   scatter_tiles<false>(space, "higher orders", plan.scatter, tiles, static_cast<Real*>(nullptr), next, WatchNothing{},
                        [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                          Block<Real, Shape> w;

@@ -81,8 +81,8 @@ struct InterfaceSegments {
       const double length = norm(line);
       if (length == 0)
         continue;
-      const auto a = Shape::axis(Real(at.x), domain.axis[0]);
-      const auto b = Shape::axis(Real(at.y), domain.axis[1]);
+      const auto a = Shape::axis(at.x, domain.axis[0]);
+      const auto b = Shape::axis(at.y, domain.axis[1]);
       int index[neighbours<Shape, 2>], which[neighbours<Shape, 2>], count = 0;
       double weight[neighbours<Shape, 2>], sum = 0;
       for (int n = 0; n < neighbours<Shape, 2>; ++n) {

@@ -98,9 +98,10 @@ struct Band {
     const Particles<Real, 2>& p = s.particles;
     alignas(64) int at[lanes];
     std::copy_n(particle, lanes, at);
-    const Real *X = p.x[0].data(), *Y = p.x[1].data(), *VX = p.v[0].data(), *VY = p.v[1].data();
+    const double *X = p.x[0].data(), *Y = p.x[1].data();
+    const Real *VX = p.v[0].data(), *VY = p.v[1].data();
     const Real *M = p.mass.data(), *SX = p.stress[0].data(), *SY = p.stress[1].data(), *SXY = p.stress[2].data();
-    const Real *A = p.F[0].data(), *B = p.F[1].data(), *C = p.F[2].data(), *D = p.F[3].data();
+    const double *A = p.F[0].data(), *B = p.F[1].data(), *C = p.F[2].data(), *D = p.F[3].data();
     const JDomain d = domain;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];

@@ -28,8 +28,8 @@ template <class Shape, class Real>
 Motion motion_of(const State<Real, 2>& s, const FieldSlots& slots, long p) {
   const Lattice& l = s.grid.lattice;
   const DomainSetting<Real, 2>& d = s.domains[s.particles.body[p]];
-  const auto a = Shape::axis(Real((s.particles.x[0][p] - l.origin.x) / l.h), d.axis[0]);
-  const auto b = Shape::axis(Real((s.particles.x[1][p] - l.origin.y) / l.h), d.axis[1]);
+  const auto a = Shape::axis((s.particles.x[0][p] - l.origin.x) / l.h, d.axis[0]);
+  const auto b = Shape::axis((s.particles.x[1][p] - l.origin.y) / l.h, d.axis[1]);
   const std::uint32_t word = s.fields.fields[p];
   Motion m;
   for (int j = 0; j < Shape::width; ++j)
@@ -105,7 +105,7 @@ class TipSummer {
 
  private:
   static constexpr int lanes = exec::lanes;
-  static constexpr int line = 64 / sizeof(Real);  ///< particles of which a line of memory holds one number each
+  static constexpr int line = 64 / sizeof(double);  ///< particles of which a line of memory holds one number each
 
   /// Particles on which q falls.
   struct Chosen {
@@ -119,7 +119,7 @@ class TipSummer {
     const double outer[4] = {d.outer(right), d.outer(top), -d.outer(left), -d.outer(bottom)};
     const double inner[4] = {d.inner(right), d.inner(top), -d.inner(left), -d.inner(bottom)};
     for (int at = first; at < last; at += lanes) {
-      const Real *x = s_.particles.x[0].data() + at, *y = s_.particles.x[1].data() + at;
+      const double *x = s_.particles.x[0].data() + at, *y = s_.particles.x[1].data() + at;
       alignas(64) std::int64_t falls[lanes];
       exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
         const double rx = x[k] - d.tip.x, ry = y[k] - d.tip.y;
@@ -147,12 +147,9 @@ class TipSummer {
     const size_t first = patch.asked, end = std::min(patch.lines.size(), first + static_cast<size_t>(lines));
     for (size_t k = first; k < end; ++k) {
       const int at = patch.lines[k];
-      for (const Real* array :
-           {p.x[0].data(), p.x[1].data(), p.v[0].data(), p.v[1].data(), p.F[0].data(), p.F[1].data(), p.F[2].data(),
-            p.F[3].data(), p.stress[0].data(), p.stress[1].data(), p.stress[2].data(), p.mass.data()})
-        exec::prefetch_far(array + at);
-      exec::prefetch_far(p.body.data() + at);
-      exec::prefetch_far(s_.fields.fields.data() + at);
+      const auto ask = [at](const auto&... arrays) { (exec::prefetch_far(arrays.data() + at), ...); };
+      ask(p.x[0], p.x[1], p.v[0], p.v[1], p.F[0], p.F[1], p.F[2], p.F[3], p.stress[0], p.stress[1], p.stress[2], p.mass,
+          p.body, s_.fields.fields);
     }
     patch.asked = end;
   }
@@ -181,7 +178,7 @@ class TipSummer {
       return;
     const Particles<Real, 2>& p = s_.particles;
     const Motion motion = motion_of<Shape>(s_, slots_, i);
-    const Mat2<double> F{double(p.F[0][i]), double(p.F[1][i]), double(p.F[2][i]), double(p.F[3][i])};
+    const Mat2<double> F{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
     const Mat2<double> rate = motion.grad * F, H = task.gradient(F);
     const Vec2 a = motion.acceleration, v{double(p.v[0][i]), double(p.v[1][i])};
     const double m = q * p.mass[i] / s_.thickness[p.body[i]];

@@ -33,8 +33,10 @@ struct NodeSums {
   ShapeFunction shape;
   Lattice lattice;
   Positions<Real> at;
-  const Real *X, *Y, *mass, *J;
-  const Real* F[4];
+  const double *X, *Y;
+  const Real* mass;
+  const double* J;
+  const double* F[4];
   const std::uint8_t* body;
   const double* specific_area;
   const int* cell_start;        ///< Tiles::cell_start
@@ -44,9 +46,7 @@ struct NodeSums {
   std::uint8_t* known;     ///< ContactSums
 
   /// Area of a particle over its first area.
-  RIVEN_INLINE double area_ratio(long i) const {
-    return J ? double(J[i]) : double(F[0][i]) * F[3][i] - double(F[1][i]) * F[2][i];
-  }
+  RIVEN_INLINE double area_ratio(long i) const { return J ? J[i] : F[0][i] * F[3][i] - F[1][i] * F[2][i]; }
 
   /// f(first, last) for the stretches of particles that were sorted into the cells around node (I, K).
   template <class Shape, class Visit>

@@ -22,7 +22,8 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
       s.particles.tiles,
       s.grid.lattice,
       extra,
-      {{p.x, p.y, p.vx, p.vy, p.mass, Forces ? p.sxx : nullptr, Forces ? p.syy : nullptr, Forces ? p.sxy : nullptr},
+      {{p.x, p.y},
+       {p.vx, p.vy, p.mass, Forces ? p.sxx : nullptr, Forces ? p.syy : nullptr, Forces ? p.sxy : nullptr},
        {q},
        mass}};
   const Real bx = Real(gravity.x), by = Real(gravity.y);

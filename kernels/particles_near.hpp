@@ -36,7 +36,7 @@ template <class Real>
 bool solid_ahead(const State<Real, 2>& s, Vec2 x, Vec2 way, double particle) {
   bool found = false;
   each_particle_near(s, x, 2 * particle, [&](int k) {
-    found |= dot(Vec2{double(s.particles.x[0][k]), double(s.particles.x[1][k])} - x, way) > 1e-6 * particle;
+    found |= dot(Vec2{s.particles.x[0][k], s.particles.x[1][k]} - x, way) > 1e-6 * particle;
   });
   return found;
 }
@@ -47,7 +47,7 @@ int body_near(const State<Real, 2>& s, Vec2 x, double radius, int otherwise) {
   double least = radius;
   int best = -1;
   each_particle_near(s, x, radius, [&](int k) {
-    const double d = norm(Vec2{double(s.particles.x[0][k]), double(s.particles.x[1][k])} - x);
+    const double d = norm(Vec2{s.particles.x[0][k], s.particles.x[1][k]} - x);
     if (d < least || (d == least && best >= 0 && s.particles.id[k] < s.particles.id[best])) {
       least = d;
       best = k;
@@ -70,14 +70,14 @@ Vec2 first_position(const State<Real, 2>& s, Vec2 x, Vec2 shift) {
   const double n = static_cast<double>(near.size());
   Vec2 mean, mean0;
   for (const int k : near) {
-    mean += Vec2{double(p.x[0][k]), double(p.x[1][k])} * (1 / n);
-    mean0 += Vec2{double(p.x0[0][k]), double(p.x0[1][k])} * (1 / n);
+    mean += Vec2{p.x[0][k], p.x[1][k]} * (1 / n);
+    mean0 += Vec2{p.x0[0][k], p.x0[1][k]} * (1 / n);
   }
   double xx = 0, xy = 0, yy = 0;
   Vec2 by_x, by_y;  // sums of first positions times x and y
   for (const int k : near) {
-    const Vec2 r = Vec2{double(p.x[0][k]), double(p.x[1][k])} - mean;
-    const Vec2 r0 = Vec2{double(p.x0[0][k]), double(p.x0[1][k])} - mean0;
+    const Vec2 r = Vec2{p.x[0][k], p.x[1][k]} - mean;
+    const Vec2 r0 = Vec2{p.x0[0][k], p.x0[1][k]} - mean0;
     xx += r.x * r.x;
     xy += r.x * r.y;
     yy += r.y * r.y;

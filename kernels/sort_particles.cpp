@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "core/exec/parallel.hpp"
 #include "kernels/dispatch.hpp"
@@ -20,8 +21,8 @@ constexpr double worth_while = 0.24;
 constexpr long seldom = 64;
 
 /// Sorting key of a position: tile by tile, cell by cell; -1 outside of the walls.
-template <class Shape, class Real>
-RIVEN_INLINE int key_of(const Lattice& l, Real X, Real Y) {
+template <class Shape>
+RIVEN_INLINE int key_of(const Lattice& l, double X, double Y) {
   const int i = Shape::cell(X), j = Shape::cell(Y);
   const bool inside =
       i >= l.wall_lower[0] - 1 && i <= l.wall_upper[0] + 1 && j >= l.wall_lower[1] - 1 && j <= l.wall_upper[1] + 1;
@@ -69,8 +70,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   const Lattice l = s.grid.lattice;
   const long n = p.count();
   exec::Array<int> key(n), order(n);
-  const Real *x = p.x[0].data(), *y = p.x[1].data();
-  const Real ox = Real(l.origin.x), oy = Real(l.origin.y), inv = Real(1 / l.h);
+  const double *x = p.x[0].data(), *y = p.x[1].data(), ox = l.origin.x, oy = l.origin.y, inv = 1 / l.h;
   with_shape(plan.shape, [&](auto shape) {
     exec::parallel_for(space, "sort particles: keys", n, [=, key = key.data()](long i) {
       key[i] = key_of<typename decltype(shape)::type>(l, (x[i] - ox) * inv, (y[i] - oy) * inv);
@@ -94,18 +94,9 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   if (plan.contact || plan.fracture)
     p.tiles.cell_start.swap(start);
 
-  exec::Array<Real> spare_real;
-  exec::Array<int> spare_int;
-  exec::Array<std::uint8_t> spare_byte;
-  p.each_array([&](auto& a) {
-    using T = std::remove_reference_t<decltype(a[0])>;
-    if constexpr (std::is_same_v<T, Real>)
-      permute(space, a, spare_real, order.data());
-    else if constexpr (std::is_same_v<T, int>)
-      permute(space, a, spare_int, order.data());
-    else
-      permute(space, a, spare_byte, order.data());
-  });
+  std::tuple<exec::Array<double>, exec::Array<float>, exec::Array<int>, exec::Array<std::uint8_t>> spare;
+  p.each_array(
+      [&](auto& a) { permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), order.data()); });
   ++p.tiles.order;
   colour(l, p.tiles);
   for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite})

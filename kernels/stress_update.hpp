@@ -69,7 +69,7 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
     } else {
       p.J[i] = s.J;
     }
-    seen.det_F(k, s.J);
+    seen.det_F(k, Real(s.J));
   });
 }
 

@@ -20,8 +20,8 @@ inline constexpr int tile_reach = Lattice::tile + 2 * tile_margin;
 /// Arrays that a kernel reads or writes; null where it does not.
 template <class Real>
 struct TileReads {
-  static constexpr int most = 12;
-  const Real* particles[most] = {};
+  const double* exact[6] = {};  ///< of particles, those that are in double whatever Real is
+  const Real* particles[6] = {};
   const Real* quads[2] = {};   ///< of nodes, four numbers each
   const Real* mass = nullptr;  ///< of nodes
 };
@@ -56,10 +56,10 @@ class TileAhead {
     constexpr int line = 64 / sizeof(Real);
     const int block = static_cast<int>((first - begin_) / exec::lanes);
     const long p = next_begin_ + (first - begin_);
-    if (p < next_end_)
-      for (const Real* array : reads_.particles)
-        for (int k = 0; array && k < exec::lanes; k += line)
-          exec::prefetch_far(array + p + k);
+    if (p < next_end_) {
+      ask_each(reads_.exact, p);
+      ask_each(reads_.particles, p);
+    }
     const int rows = upper_ - lower_;
     for (int j = lower_ + rows * block / blocks_; j < lower_ + rows * (block + 1) / blocks_; ++j) {
       const long row = static_cast<long>(j) * nx_;
@@ -72,6 +72,13 @@ class TileAhead {
   }
 
  private:
+  template <class T, int most>
+  static RIVEN_INLINE void ask_each(const T* const (&arrays)[most], long p) {
+    for (const T* array : arrays)
+      for (int k = 0; array && k < exec::lanes; k += 64 / int{sizeof(T)})
+        exec::prefetch_far(array + p + k);
+  }
+
   const TileReads<Real>& reads_;
   int nx_, left_, right_, lower_, upper_;
   long begin_;

@@ -32,8 +32,7 @@ class Tracer {
         fields_(fields),
         records_(fields, shared),
         inv_h_(1 / input.lattice.h),
-        rounding_(input.lattice.h * std::max(1e-9, 8. * std::numeric_limits<Real>::epsilon() *
-                                                       std::max(input.lattice.nx, input.lattice.ny))),
+        rounding_(input.lattice.h * std::max(1e-9, 8. * std::numeric_limits<Real>::epsilon())),
         moves_known_(input.tile_move != nullptr) {}
 
   /// All particles of marked tiles [first, last) that may have come to cross something else.
@@ -67,8 +66,8 @@ class Tracer {
   static constexpr int nodes = width * width;
   static constexpr int groups = Paths<Shape>::groups;
 
-  Real place_x(long p) const { return (in_.particles.x[0][p] - Real(in_.lattice.origin.x)) * Real(inv_h_); }
-  Real place_y(long p) const { return (in_.particles.x[1][p] - Real(in_.lattice.origin.y)) * Real(inv_h_); }
+  double place_x(long p) const { return (in_.particles.x[0][p] - in_.lattice.origin.x) * inv_h_; }
+  double place_y(long p) const { return (in_.particles.x[1][p] - in_.lattice.origin.y) * inv_h_; }
 
   /// Adds the moves since the last trace to the tile's sums. Along an axis a move is at most sqrt(2) times shorter.
   void follow(long marked, double particle_move) const {
@@ -135,7 +134,7 @@ class Tracer {
   /// Brings the records of one particle up to date; returns how long they will be.
   double keep(long p) {
     CrossingMemory& m = fields_.memory[p];
-    const Vec2 x{double(in_.particles.x[0][p]), double(in_.particles.x[1][p])};
+    const Vec2 x{in_.particles.x[0][p], in_.particles.x[1][p]};
     double used = norm(x - m.x) + (tile_->travel - m.travel);
     const bool turned = tile_->turned && m.cell >= 0 && fields_.turned[m.cell] == fields_.traces;
     if (!m.known || turned || !(used < m.clear || used == 0)) {
@@ -151,7 +150,7 @@ class Tracer {
   }
 
   /// Number of the cell of a particle, or -1. One that has left the grid is reported by those who move it.
-  int cell_of(Real X, Real Y) const {
+  int cell_of(double X, double Y) const {
     const int i = Shape::cell(X), j = Shape::cell(Y);
     return i < 1 || j < 1 || i >= in_.lattice.nx - 1 || j >= in_.lattice.ny - 1 ? -1 : j * in_.lattice.nx + i;
   }
@@ -166,12 +165,12 @@ class Tracer {
 
   void trace(long p, CrossingMemory& m) {
     records_.begin_particle();
-    const Real X = place_x(p), Y = place_y(p);
+    const double X = place_x(p), Y = place_y(p);
     m.cell = cell_of(X, Y);
     m.clear = 0;
     m.weighs = never;
     if (m.cell >= 0) {
-      const double inside = in_.lattice.h * double(std::min(Shape::to_next_cell(X), Shape::to_next_cell(Y)));
+      const double inside = in_.lattice.h * std::min(Shape::to_next_cell(X), Shape::to_next_cell(Y));
       if (fields_.cell_index[m.cell] >= 0) {
         clear2_ = inside * inside;
         trace_all(p, m);
@@ -201,8 +200,8 @@ class Tracer {
   double weights_stay(long p) const {
     const DomainSetting<Real, 2>& domain = in_.domains[in_.particles.body[p]];
     return tile_->path - rounding_ +
-           in_.lattice.h * double(std::min(Shape::to_other_weights(place_x(p), domain.axis[0]),
-                                           Shape::to_other_weights(place_y(p), domain.axis[1])));
+           in_.lattice.h * std::min(Shape::to_other_weights(place_x(p), domain.axis[0]),
+                                    Shape::to_other_weights(place_y(p), domain.axis[1]));
   }
 
   void trace_all(long p, CrossingMemory& m) {

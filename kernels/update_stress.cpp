@@ -53,7 +53,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
-                            {{p.x, p.y, p.mass, p.sxx, p.syy, p.sxy, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {q}}};
+                            {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.mass, p.sxx, p.syy, p.sxy}, {q}}};
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, tiles, static_cast<Real*>(nullptr), q, see,
       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
@@ -92,10 +92,11 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
-  const TileRun<Real> tiles{s.particles.tiles,
-                            s.grid.lattice,
-                            extra,
-                            {{p.x, p.y, p.step_x, p.step_y, p.sxx, p.syy, p.sxy, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {again}}};
+  const TileRun<Real> tiles{
+      s.particles.tiles,
+      s.grid.lattice,
+      extra,
+      {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.step_x, p.step_y, p.sxx, p.syy, p.sxy}, {again}}};
   each_tile(space, "stress after, move", tiles, see,
             [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;

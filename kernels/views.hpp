@@ -10,8 +10,9 @@ namespace riven {
 /// Particle arrays; null where the plan did not ask for an array.
 template <class Real>
 struct ParticleView {
-  Real *x, *y, *vx, *vy;
-  Real *Fxx, *Fxy, *Fyx, *Fyy, *J;
+  double *x, *y;
+  Real *vx, *vy;
+  double *Fxx, *Fxy, *Fyx, *Fyy, *J;
   Real *sxx, *syy, *sxy;
   Real* mass;
   Real *step_x, *step_y;
@@ -27,9 +28,12 @@ ParticleView<Real> view(Particles<Real, 2>& p) {
 template <class Real>
 Positions<Real> positions(const State<Real, 2>& s) {
   const Lattice& l = s.grid.lattice;
-  return {s.particles.x[0].data(), s.particles.x[1].data(),
-          Real(l.origin.x),        Real(l.origin.y),
-          Real(1 / l.h),           {s.domains.data(), s.particles.body.data(), s.domains.size() == 1}};
+  return {s.particles.x[0].data(),
+          s.particles.x[1].data(),
+          l.origin.x,
+          l.origin.y,
+          1 / l.h,
+          {s.domains.data(), s.particles.body.data(), s.domains.size() == 1}};
 }
 
 /// `shared`: several tiles may write to a slot at once.

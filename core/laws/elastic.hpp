@@ -17,11 +17,12 @@
 
 namespace riven {
 
-/// One particle as a law sees it. `J` is the ratio of present to first area; `F` is used by laws that keep it.
+/// One particle as a law sees it. `J` is the ratio of present to first area; `F` is used by laws that keep it. Both are
+/// in double whatever Real is: see Particles.
 template <class Real>
 struct LawState {
-  Mat2<Real> F;
-  Real J;
+  Mat2<double> F;
+  double J;
   Real xx, yy, xy;
 };
 
@@ -80,7 +81,7 @@ struct LinearElastic {
   }
   /// The law is linear in the logarithmic strain: per present length, stiffness falls and density falls with J.
   RIVEN_INLINE Real wave_speed(const LawState<Real>&) const { return std::sqrt(lambda + Real(2) * mu); }
-  RIVEN_INLINE Real thickness_ratio(Real J) const { return std::pow(J, -lateral); }
+  RIVEN_INLINE double thickness_ratio(double J) const { return std::pow(J, double(-lateral)); }
   RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return zz * (p.xx + p.yy); }
 };
 
@@ -101,51 +102,49 @@ struct LinearElasticF : LinearElastic<Real> {
 ///   W = mu/2 (tr b - 3) - mu ln J + lambda/4 (J^2 - 1) - lambda/2 ln J,
 ///   tau = mu (b - I) + lambda/2 (J^2 - 1) I                               (Simo and Pister 1984)
 /// In plane stress tau_zz = 0 gives F33^2 = (2 mu + lambda) / (2 mu + lambda J2^2), J2 the in-plane determinant.
+/// Evaluated in double whatever Real is: stress and energy are small differences of F from unity.
 template <class Real>
 struct NeoHookean {
   static constexpr bool keeps_F = true;
-  Real lambda, mu;
-  Real thinning;  ///< lambda in plane stress, 0 in plane strain (F33 = 1)
+  double lambda, mu;
+  double thinning;  ///< lambda in plane stress, 0 in plane strain (F33 = 1)
 
   NeoHookean() = default;
   NeoHookean(const Material& m, Plane plane) {
     const Elasticity e = elasticity(m);
-    lambda = Real(e.lambda);
-    mu = Real(e.mu);
-    thinning = Real(plane == Plane::stress ? e.lambda : 0);
+    lambda = e.lambda;
+    mu = e.mu;
+    thinning = plane == Plane::stress ? e.lambda : 0;
   }
 
-  RIVEN_INLINE Real thickness_squared(Real J2) const {
-    return (Real(2) * mu + thinning) / (Real(2) * mu + thinning * J2 * J2);
-  }
+  RIVEN_INLINE double thickness_squared(double J2) const { return (2 * mu + thinning) / (2 * mu + thinning * J2 * J2); }
   RIVEN_INLINE void update(const Mat2<Real>& G, LawState<Real>& p) const {
-    const Mat2<Real> F = p.F + G * p.F;
+    const Mat2<double> F = p.F + G * p.F;
     p.F = F;
     p.J = det(F);
-    const Real J2 = p.J * p.J, pressure = Real(0.5) * lambda * (J2 * thickness_squared(p.J) - Real(1));
-    p.xx = mu * (F.xx * F.xx + F.xy * F.xy - Real(1)) + pressure;
-    p.yy = mu * (F.yx * F.yx + F.yy * F.yy - Real(1)) + pressure;
-    p.xy = mu * (F.xx * F.yx + F.xy * F.yy);
+    const double J2 = p.J * p.J, pressure = 0.5 * lambda * (J2 * thickness_squared(p.J) - 1);
+    p.xx = Real(mu * (F.xx * F.xx + F.xy * F.xy - 1) + pressure);
+    p.yy = Real(mu * (F.yx * F.yx + F.yy * F.yy - 1) + pressure);
+    p.xy = Real(mu * (F.xx * F.yx + F.xy * F.yy));
   }
-  RIVEN_INLINE Real energy(const LawState<Real>& p) const {
-    const Real J2 = det(p.F), t = thickness_squared(J2), JJ = J2 * J2 * t, logJ = Real(0.5) * std::log(JJ);
-    const Real trace = p.F.xx * p.F.xx + p.F.xy * p.F.xy + p.F.yx * p.F.yx + p.F.yy * p.F.yy + t;
-    return Real(0.5) * mu * (trace - Real(3)) - mu * logJ + Real(0.25) * lambda * (JJ - Real(1)) -
-           Real(0.5) * lambda * logJ;
+  RIVEN_INLINE double energy(const LawState<Real>& p) const {
+    const double J2 = det(p.F), t = thickness_squared(J2), JJ = J2 * J2 * t, logJ = 0.5 * std::log(JJ);
+    const double trace = p.F.xx * p.F.xx + p.F.xy * p.F.xy + p.F.yx * p.F.yx + p.F.yy * p.F.yy + t;
+    return 0.5 * mu * (trace - 3) - mu * logJ + 0.25 * lambda * (JJ - 1) - 0.5 * lambda * logJ;
   }
   /// Largest root over all directions n of the acoustic tensor per present density in plane strain,
   ///   mu (n . b n) I + (mu + lambda/2 (J^2 + 1)) n (x) n;
   /// a bound of it in plane stress, where J holds the thickness and a free thickness makes waves slower.
-  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
-    const Real bxx = p.F.xx * p.F.xx + p.F.xy * p.F.xy, byy = p.F.yx * p.F.yx + p.F.yy * p.F.yy;
-    const Real bxy = p.F.xx * p.F.yx + p.F.xy * p.F.yy, half = Real(0.5) * (bxx - byy);
-    const Real largest = Real(0.5) * (bxx + byy) + std::sqrt(half * half + bxy * bxy), J = det(p.F);
-    return std::sqrt(Real(0.5) * lambda * (J * J * thickness_squared(J) + Real(1)) + mu * (Real(1) + largest));
+  RIVEN_INLINE double wave_speed(const LawState<Real>& p) const {
+    const double bxx = p.F.xx * p.F.xx + p.F.xy * p.F.xy, byy = p.F.yx * p.F.yx + p.F.yy * p.F.yy;
+    const double bxy = p.F.xx * p.F.yx + p.F.xy * p.F.yy, half = 0.5 * (bxx - byy);
+    const double largest = 0.5 * (bxx + byy) + std::sqrt(half * half + bxy * bxy), J = det(p.F);
+    return std::sqrt(0.5 * lambda * (J * J * thickness_squared(J) + 1) + mu * (1 + largest));
   }
-  RIVEN_INLINE Real thickness_ratio(Real J) const { return std::sqrt(thickness_squared(J)); }
-  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const {
-    const Real J = det(p.F), t = thickness_squared(J);
-    return mu * (t - Real(1)) + Real(0.5) * lambda * (J * J * t - Real(1));
+  RIVEN_INLINE double thickness_ratio(double J) const { return std::sqrt(thickness_squared(J)); }
+  RIVEN_INLINE double stress_zz(const LawState<Real>& p) const {
+    const double J = det(p.F), t = thickness_squared(J);
+    return mu * (t - 1) + 0.5 * lambda * (J * J * t - 1);
   }
 };
 
@@ -170,14 +169,14 @@ struct AnyElastic {
     p.yy = is_linear ? a.yy : p.yy;
     p.xy = is_linear ? a.xy : p.xy;
   }
-  RIVEN_INLINE Real energy(const LawState<Real>& p) const { return is_linear ? linear.energy(p) : neo.energy(p); }
-  RIVEN_INLINE Real wave_speed(const LawState<Real>& p) const {
+  RIVEN_INLINE double energy(const LawState<Real>& p) const { return is_linear ? linear.energy(p) : neo.energy(p); }
+  RIVEN_INLINE double wave_speed(const LawState<Real>& p) const {
     return is_linear ? linear.wave_speed(p) : neo.wave_speed(p);
   }
-  RIVEN_INLINE Real thickness_ratio(Real J) const {
+  RIVEN_INLINE double thickness_ratio(double J) const {
     return is_linear ? linear.thickness_ratio(J) : neo.thickness_ratio(J);
   }
-  RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const {
+  RIVEN_INLINE double stress_zz(const LawState<Real>& p) const {
     return is_linear ? linear.stress_zz(p) : neo.stress_zz(p);
   }
 };

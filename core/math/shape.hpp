@@ -1,8 +1,8 @@
 // Shape functions on the regular grid. Each is a product of one-dimensional functions; the number of nodes along
 // an axis is the shape function's own property, and so is the neighbour count that follows from it.
 //
-// X is a particle's position in cells from node 0. `axis` gives the first node it sees, the values s and the
-// gradients g (per cell) of its `width` nodes:
+// X is a particle's position in cells from node 0, in double so that its place in its cell is sharp whatever Real is.
+// `axis` gives the first node it sees, the values s and the gradients g (per cell) of its `width` nodes:
 //   linear    N(r) = 1 - |r|                                          (Sulsky et al. 1994)
 //   uGIMP     the hat function averaged over the particle's domain    (Bardenhagen and Kober 2004, eq. 36)
 //   B-spline  quadratic, node-centred; the ghost node outside a wall is folded onto the two nodes inside by linear
@@ -36,24 +36,21 @@ struct Linear {
   static constexpr const char* name = "linear";
 
   /// The cell by which particles are sorted: the first node that they see.
+  static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X)); }
   template <class Real>
-  static RIVEN_INLINE int cell(Real X) {
-    return static_cast<int>(std::floor(X));
-  }
-  template <class Real>
-  static RIVEN_INLINE Axis<Real, 2> axis(Real X, const AxisSetting<Real>&) {
-    const Real f = std::floor(X), r = X - f;
+  static RIVEN_INLINE Axis<Real, 2> axis(double X, const AxisSetting<Real>&) {
+    const double f = std::floor(X);
+    const Real r = Real(X - f);
     return {static_cast<int>(f), {Real(1) - r, r}, {Real(-1), Real(1)}};
   }
   /// How far X may move, in cells, before it leaves its cell.
-  template <class Real>
-  static RIVEN_INLINE Real to_next_cell(Real X) {
-    const Real r = X - std::floor(X);
-    return std::min(r, Real(1) - r);
+  static RIVEN_INLINE double to_next_cell(double X) {
+    const double r = X - std::floor(X);
+    return std::min(r, 1 - r);
   }
   /// The same, before it leaves its cell or a weight begins or ceases to be zero.
   template <class Real>
-  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>&) {
+  static RIVEN_INLINE double to_other_weights(double X, const AxisSetting<Real>&) {
     return to_next_cell(X);
   }
 };
@@ -62,13 +59,11 @@ struct UGimp {
   static constexpr int width = 3;
   static constexpr const char* name = "ugimp";
 
+  static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE int cell(Real X) {
-    return static_cast<int>(std::floor(X + Real(0.5)));
-  }
-  template <class Real>
-  static RIVEN_INLINE Axis<Real, 3> axis(Real X, const AxisSetting<Real>& a) {
-    const Real near = std::floor(X + Real(0.5)), r = X - near, l = a.half;
+  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a) {
+    const double near = std::floor(X + 0.5);
+    const Real r = Real(X - near), l = a.half;
     const Real c = std::min(std::max(r, -l), l);
     const Real below = l - c, above = l + c;
     const Real s0 = below * below * a.inv_4half + std::max(Real(0), c - r);
@@ -76,14 +71,11 @@ struct UGimp {
     const Real g0 = Real(-2) * below * a.inv_4half, g2 = Real(2) * above * a.inv_4half;
     return {static_cast<int>(near) - 1, {s0, Real(1) - s0 - s2, s2}, {g0, -g0 - g2, g2}};
   }
+  static RIVEN_INLINE double to_next_cell(double X) { return 0.5 - std::abs(X - std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE Real to_next_cell(Real X) {
-    return Real(0.5) - std::abs(X - std::floor(X + Real(0.5)));
-  }
-  template <class Real>
-  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>& a) {
-    const Real r = std::abs(X - std::floor(X + Real(0.5)));
-    return std::min(Real(0.5) - r, std::abs(r - a.half));
+  static RIVEN_INLINE double to_other_weights(double X, const AxisSetting<Real>& a) {
+    const double r = std::abs(X - std::floor(X + 0.5));
+    return std::min(0.5 - r, std::abs(r - a.half));
   }
 };
 
@@ -91,13 +83,11 @@ struct BSpline {
   static constexpr int width = 3;
   static constexpr const char* name = "bspline";
 
+  static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE int cell(Real X) {
-    return static_cast<int>(std::floor(X + Real(0.5)));
-  }
-  template <class Real>
-  static RIVEN_INLINE Axis<Real, 3> axis(Real X, const AxisSetting<Real>& a) {
-    const Real near = std::floor(X + Real(0.5)), r = X - near;
+  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a) {
+    const double near = std::floor(X + 0.5);
+    const Real r = Real(X - near);
     const int node = static_cast<int>(near);
     const Real below = Real(0.5) - r, above = Real(0.5) + r;
     Real s0 = Real(0.5) * below * below, s2 = Real(0.5) * above * above, s1 = Real(1) - s0 - s2;
@@ -114,15 +104,12 @@ struct BSpline {
     g2 = low ? Real(1) : high ? Real(0) : g2;
     return {node - 1, {s0, s1, s2}, {g0, g1, g2}};
   }
+  static RIVEN_INLINE double to_next_cell(double X) { return 0.5 - std::abs(X - std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE Real to_next_cell(Real X) {
-    return Real(0.5) - std::abs(X - std::floor(X + Real(0.5)));
-  }
-  template <class Real>
-  static RIVEN_INLINE Real to_other_weights(Real X, const AxisSetting<Real>& a) {
-    const Real near = std::floor(X + Real(0.5)), r = std::abs(X - near);
+  static RIVEN_INLINE double to_other_weights(double X, const AxisSetting<Real>& a) {
+    const double near = std::floor(X + 0.5), r = std::abs(X - near);
     const int node = static_cast<int>(near);
-    return node <= a.wall_lower || node >= a.wall_upper ? std::min(Real(0.5) - r, r) : Real(0.5) - r;
+    return node <= a.wall_lower || node >= a.wall_upper ? std::min(0.5 - r, r) : 0.5 - r;
   }
 };
 

@@ -1,6 +1,7 @@
 // Two-by-two tensors as four numbers [11 12 21 22]; written without branches so that loops over particles vectorise.
 #pragma once
 #include <cmath>
+#include <type_traits>
 
 #include "core/exec/config.hpp"
 
@@ -11,8 +12,8 @@ struct Mat2 {
   Real xx, xy, yx, yy;
 };
 
-template <class Real>
-RIVEN_INLINE Mat2<Real> operator*(const Mat2<Real>& a, const Mat2<Real>& b) {
+template <class A, class B>
+RIVEN_INLINE Mat2<std::common_type_t<A, B>> operator*(const Mat2<A>& a, const Mat2<B>& b) {
   return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx, a.yx * b.xy + a.yy * b.yy};
 }
 

@@ -77,9 +77,10 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   const std::vector<Seed> seeds = lay_bodies(scene, s.grid.lattice);
   const long n = static_cast<long>(seeds.size());
   auto& p = s.particles;
-  for (auto* group : {p.x, p.v})
-    for (int d = 0; d < 2; ++d)
-      group[d].resize(n);
+  for (int d = 0; d < 2; ++d) {
+    p.x[d].resize(n);
+    p.v[d].resize(n);
+  }
   for (auto& a : p.stress)
     a.resize(n);
   for (auto* a : {&p.mass})
@@ -99,17 +100,17 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       a.resize(n);
   for (long i = 0; i < n; ++i) {
     const Seed& seed = seeds[static_cast<size_t>(i)];
-    p.x[0][i] = Real(seed.x.x);
-    p.x[1][i] = Real(seed.x.y);
+    p.x[0][i] = seed.x.x;
+    p.x[1][i] = seed.x.y;
     p.v[0][i] = Real(seed.v.x);
     p.v[1][i] = Real(seed.v.y);
     p.mass[i] = Real(seed.mass);
     p.body[i] = static_cast<std::uint8_t>(seed.body);
     p.id[i] = static_cast<int>(i);
     if (plan.keeps_F())
-      p.F[0][i] = p.F[3][i] = Real(1);
+      p.F[0][i] = p.F[3][i] = 1;
     if (plan.keeps_J())
-      p.J[i] = Real(1);
+      p.J[i] = 1;
     if (plan.first_positions()) {
       p.x0[0][i] = p.x[0][i];
       p.x0[1][i] = p.x[1][i];

@@ -1,4 +1,8 @@
 // Particles: a structure of arrays, kept sorted by tile and cell. An array exists only if the plan asked for it.
+//
+// What grows step by step by a small part of itself is in double whatever Real is: a step moves a particle by 1e-5 of a
+// cell or so, and strains it by as little, which in float would be lost on its place on a grid of a thousand cells and
+// next to the unity in F. The cracks' crossing tests see exact places, too.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -22,13 +26,13 @@ struct Particles {
   static constexpr int tensor = Dim * Dim;
   static constexpr int symmetric = Dim * (Dim + 1) / 2;
 
-  exec::Array<Real> x[Dim];             ///< position, m
+  exec::Array<double> x[Dim];           ///< position, m
   exec::Array<Real> v[Dim];             ///< velocity, m/s
-  exec::Array<Real> F[tensor];          ///< deformation gradient [F11 F12 F21 F22] (where a law or an output needs it)
-  exec::Array<Real> J;                  ///< det F (laws that do not keep F)
+  exec::Array<double> F[tensor];        ///< deformation gradient [F11 F12 F21 F22] (where a law or an output needs it)
+  exec::Array<double> J;                ///< det F (laws that do not keep F)
   exec::Array<Real> stress[symmetric];  ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
   exec::Array<Real> mass;               ///< kg
-  exec::Array<Real> x0[Dim];            ///< first position, m (displacement-based contact, probes)
+  exec::Array<double> x0[Dim];          ///< first position, m (displacement-based contact, probes)
   exec::Array<Real> step[Dim];          ///< move of this step, applied after the stresses (MUSL, USAVG)
   exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
   exec::Array<int> id;                  ///< stable number, 0 .. n-1

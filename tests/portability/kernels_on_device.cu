@@ -29,8 +29,8 @@ __global__ void step(long particles, Positions<Real> positions, const Law* laws,
   }
   const Law law = laws[body[p]];
   law.update(exp_minus_identity(Mat2<Real>{g.dx[0], g.dy[0], g.dx[1], g.dy[1]}), state[p]);
-  exec::atomic_add(mass[0], law.energy(state[p]) + law.wave_speed(state[p]) + law.thickness_ratio(state[p].J) +
-                                law.stress_zz(state[p]));
+  exec::atomic_add(mass[0], Real(law.energy(state[p]) + law.wave_speed(state[p]) + law.thickness_ratio(state[p].J) +
+                                 law.stress_zz(state[p])));
 }
 
 /// One node near two cracks a thread: which cracks the path from a particle crosses, and contact of the four fields.
