@@ -9,15 +9,18 @@
 #include "core/scene/names.hpp"
 #include "io/progress.hpp"
 #include "io/run_scene.hpp"
+#include "kernels/dispatch.hpp"
 
 namespace riven {
 
 namespace {
 
-void print_header(const Simulation& m) {
+template <class Real>
+void print_header(const SimulationOf<Real>& m) {
   fmt::print("{}\n", m.scene.title);
-  fmt::print("{} particles, {} on {} thread{}, {} scatter; effects: {}\n", m.state.particles.count(),
-             exec::name(m.space.kind()), m.space.threads(), m.space.threads() == 1 ? "" : "s", name_of(m.plan.scatter),
+  fmt::print("{} particles in {}, {} on {} thread{}, {} scatter; effects: {}\n", m.state.particles.count(),
+             name_of(m.scene.precision), exec::name(m.space.kind()), m.space.threads(),
+             m.space.threads() == 1 ? "" : "s", name_of(m.plan.scatter),
              m.plan.effects().empty() ? "none" : fmt::to_string(fmt::join(m.plan.effects(), ", ")));
   if (!m.scene.defaults.empty())
     fmt::print("defaults: {}\n", fmt::join(m.scene.defaults, ", "));
@@ -53,8 +56,10 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
-void print_cost_of_j(const Simulation& m) {
-  const auto task = std::find_if(m.tasks.begin(), m.tasks.end(), [](const Task& t) { return t.label == "J and K"; });
+template <class Real>
+void print_cost_of_j(const SimulationOf<Real>& m) {
+  const auto task =
+      std::find_if(m.tasks.begin(), m.tasks.end(), [](const TaskOf<Real>& t) { return t.label == "J and K"; });
   if (task != m.tasks.end() && m.fracture.evaluations > 0)
     fmt::print("{} evaluations of J and K, {} of them crossed by other cracks, {:.2f} us each\n",
                m.fracture.evaluations, m.fracture.crossed,
@@ -67,10 +72,10 @@ struct Options {
   bool quiet = false, profile = false;
 };
 
-void run(const Options& o) {
-  const Scene scene = o.scene.read();
+template <class Real>
+void run(const Options& o, const Scene& scene) {
   const exec::Space space(scene.exec, threads_of(scene));
-  Simulation simulation(scene, space);
+  SimulationOf<Real> simulation(scene, space);
   const std::filesystem::path folder = o.folder.empty() ? "results/" + scene.name : o.folder;
   if (!o.quiet)
     print_header(simulation);
@@ -92,7 +97,10 @@ void add_run(CLI::App& app) {
   command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");
   command->add_flag("--quiet", o->quiet, "print nothing but errors");
   command->add_flag("--profile", o->profile, "print the time of each task");
-  command->callback([o] { run(*o); });
+  command->callback([o] {
+    const Scene scene = o->scene.read();
+    with_precision(scene.precision, [&](auto real) { run<typename decltype(real)::type>(*o, scene); });
+  });
 }
 
 }  // namespace riven

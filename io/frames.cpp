@@ -62,7 +62,8 @@ void FrameWriter::write_one(const std::string& prefix, PolyData data, double tim
   write_vtkhdf(path.string() + ".vtkhdf", std::move(data), time);
 }
 
-void FrameWriter::write(double time, const Particles<double, 2>& particles, const Cracks& cracks) {
+template <class Real>
+void FrameWriter::write(double time, const Particles<Real, 2>& particles, const Cracks& cracks) {
   write_one(prefixes[0], particle_poly(particles, scene_), time);
   if (!scene_.cracks.empty())
     write_one(prefixes[1], crack_poly(cracks), time);
@@ -92,5 +93,8 @@ int assemble_frames(const fs::path& folder) {
   assemble_vtkhdf(folder / "frames", prefixes[1], folder / (prefixes[1] + ".vtkhdf"));
   return particles;
 }
+
+template void FrameWriter::write(double, const Particles<double, 2>&, const Cracks&);
+template void FrameWriter::write(double, const Particles<float, 2>&, const Cracks&);
 
 }  // namespace riven

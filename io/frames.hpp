@@ -21,7 +21,8 @@ namespace riven {
 ///   fringe                  cos(k sqrt((sxx - syy)^2 + 4 sxy^2)), k the scene's fringe constant (where asked for;
 ///                           isochromatic fringes, Nairn 2003, eq. 23).
 /// The arrays are made when they are written: particles and scene must outlive them, and stay as they are.
-PolyData particle_poly(const Particles<double, 2>& particles, const Scene& scene);
+template <class Real>
+PolyData particle_poly(const Particles<Real, 2>& particles, const Scene& scene);
 
 /// One line per crack, through the points of its plane. Point arrays:
 ///   crack; first_position [m]; upper, lower [m] positions of the surfaces; opening [m] = upper - lower;
@@ -36,7 +37,8 @@ class FrameWriter {
   /// A run that begins anew (first_frame = 0) removes the frames of an older run in the same folder; one that is
   /// resumed keeps those before first_frame. Throws Error (file).
   FrameWriter(std::filesystem::path folder, const Scene& scene, int first_frame = 0);
-  void write(double time, const Particles<double, 2>& particles, const Cracks& cracks);
+  template <class Real>
+  void write(double time, const Particles<Real, 2>& particles, const Cracks& cracks);
   /// Makes particles.vtkhdf and cracks.vtkhdf.
   void finish() const;
   int next_frame() const { return next_; }

@@ -12,7 +12,8 @@ namespace {
 using Order = std::shared_ptr<const std::vector<int>>;
 
 /// Particle numbers in the order of their ids.
-Order order_by_id(const Particles<double, 2>& p) {
+template <class Real>
+Order order_by_id(const Particles<Real, 2>& p) {
   std::vector<int> order(static_cast<std::size_t>(p.count()));
   for (int i = 0; i < p.count(); ++i)
     order[static_cast<std::size_t>(p.id[i])] = i;
@@ -34,13 +35,14 @@ PolyArray gather(std::string name, std::string unit, int components, const Order
 
 }  // namespace
 
-PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
+template <class Real>
+PolyData particle_poly(const Particles<Real, 2>& p, const Scene& scene) {
   using Reals = std::vector<double>;
   using Integers = std::vector<std::int64_t>;
   const Order order = order_by_id(p);
   const std::size_t n = order->size();
 
-  const auto stress = std::make_shared<const ParticleStress>(p, scene);
+  const auto stress = std::make_shared<const ParticleStress<Real>>(p, scene);
   const auto body = [&p, &scene](int i) -> const Body& { return scene.bodies[p.body[i]]; };
 
   PolyData d;
@@ -61,7 +63,7 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
   a.push_back(gather<double>("size", "m", 1, order,
                              [=, &scene](int i, Reals& o) { o.push_back(scene.cell / body(i).particles_per_cell); }));
   a.push_back(gather<double>("velocity", "m/s", 3, order, [&p](int i, Reals& o) {
-    o.insert(o.end(), {p.v[0][i], p.v[1][i], 0.0});
+    o.insert(o.end(), {double(p.v[0][i]), double(p.v[1][i]), 0.0});
   }));
   if (!p.x0[0].empty())
     a.push_back(gather<double>("displacement", "m", 3, order, [&p](int i, Reals& o) {
@@ -86,5 +88,8 @@ PolyData particle_poly(const Particles<double, 2>& p, const Scene& scene) {
     }));
   return d;
 }
+
+template PolyData particle_poly(const Particles<double, 2>&, const Scene&);
+template PolyData particle_poly(const Particles<float, 2>&, const Scene&);
 
 }  // namespace riven

@@ -9,21 +9,25 @@ double von_mises(const CauchyStress& s) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.xy * s.xy);
 }
 
-ParticleStress::ParticleStress(const Particles<double, 2>& particles, const Scene& scene)
+template <class Real>
+ParticleStress<Real>::ParticleStress(const Particles<Real, 2>& particles, const Scene& scene)
     : particles_(particles), scene_(scene) {
   for (const Material& m : scene.materials)
     laws_.emplace_back(m, scene.plane);
 }
 
-const Material& ParticleStress::material(long i) const {
+template <class Real>
+const Material& ParticleStress<Real>::material(long i) const {
   return scene_.materials[static_cast<std::size_t>(scene_.bodies[particles_.body[i]].material)];
 }
 
-const AnyElastic<double>& ParticleStress::law(long i) const {
+template <class Real>
+const AnyElastic<double>& ParticleStress<Real>::law(long i) const {
   return laws_[static_cast<std::size_t>(scene_.bodies[particles_.body[i]].material)];
 }
 
-LawState<double> ParticleStress::state(long i) const {
+template <class Real>
+LawState<double> ParticleStress<Real>::state(long i) const {
   const auto& p = particles_;
   LawState<double> s;
   s.F = p.F[0].empty() ? Mat2<double>{1, 0, 0, 1} : Mat2<double>{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
@@ -34,19 +38,25 @@ LawState<double> ParticleStress::state(long i) const {
   return s;
 }
 
-double ParticleStress::volume_ratio(long i) const {
+template <class Real>
+double ParticleStress<Real>::volume_ratio(long i) const {
   const double J = state(i).J;
   return J * law(i).thickness_ratio(J);
 }
 
-double ParticleStress::volume(long i) const {
+template <class Real>
+double ParticleStress<Real>::volume(long i) const {
   return particles_.mass[i] / material(i).density * volume_ratio(i);
 }
 
-CauchyStress ParticleStress::cauchy(long i) const {
+template <class Real>
+CauchyStress ParticleStress<Real>::cauchy(long i) const {
   const LawState<double> s = state(i);
   const double scale = material(i).density / volume_ratio(i);
   return {scale * s.xx, scale * s.yy, scale * law(i).stress_zz(s), scale * s.xy};
 }
+
+template class ParticleStress<double>;
+template class ParticleStress<float>;
 
 }  // namespace riven

@@ -14,9 +14,10 @@ struct CauchyStress {
 double von_mises(const CauchyStress& s);
 
 /// Looks at the particles as they are when it is asked; particles and scene must outlive it.
+template <class Real>
 class ParticleStress {
  public:
-  ParticleStress(const Particles<double, 2>& particles, const Scene& scene);
+  ParticleStress(const Particles<Real, 2>& particles, const Scene& scene);
   CauchyStress cauchy(long particle) const;
   /// det F with the change of thickness.
   double volume_ratio(long particle) const;
@@ -28,7 +29,7 @@ class ParticleStress {
   const AnyElastic<double>& law(long particle) const;
   LawState<double> state(long particle) const;
 
-  const Particles<double, 2>& particles_;
+  const Particles<Real, 2>& particles_;
   const Scene& scene_;
   std::vector<AnyElastic<double>> laws_;  ///< by material
 };

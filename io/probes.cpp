@@ -13,7 +13,8 @@ namespace riven {
 namespace {
 
 /// Id of the particle nearest to a point.
-int nearest_particle(const Particles<double, 2>& p, Vec2 point) {
+template <class Real>
+int nearest_particle(const Particles<Real, 2>& p, Vec2 point) {
   double least = std::numeric_limits<double>::infinity();
   int id = 0;
   for (long i = 0; i < p.count(); ++i) {
@@ -26,7 +27,8 @@ int nearest_particle(const Particles<double, 2>& p, Vec2 point) {
   return id;
 }
 
-long position_of(const Particles<double, 2>& p, int id) {
+template <class Real>
+long position_of(const Particles<Real, 2>& p, int id) {
   return std::find(p.id.begin(), p.id.end(), id) - p.id.begin();
 }
 
@@ -35,7 +37,8 @@ double component(const CauchyStress& s, const Probe& p) {
 }
 
 /// Volume times Cauchy stress is mass times what particles keep, Kirchhoff stress over first density.
-double mean_stress(const Simulation& m, const Probe& probe) {
+template <class Real>
+double mean_stress(const SimulationOf<Real>& m, const Probe& probe) {
   struct Sums {
     double stress = 0, volume = 0;
     Sums& operator+=(const Sums& o) {
@@ -48,12 +51,13 @@ double mean_stress(const Simulation& m, const Probe& probe) {
   const ParticleStress of(p, m.scene);
   const auto& kept = p.stress[probe.axis != probe.axis2 ? 2 : probe.axis];
   const Sums sums = exec::parallel_reduce<Sums>(m.space, "probes", p.count(), [&](long i) {
-    return Sums{p.mass[i] * kept[i], of.volume(i)};
+    return Sums{double(p.mass[i]) * kept[i], of.volume(i)};
   });
   return sums.stress / sums.volume;
 }
 
-double read_one(const Simulation& m, const Probe& probe, int target) {
+template <class Real>
+double read_one(const SimulationOf<Real>& m, const Probe& probe, int target) {
   const auto& p = m.state.particles;
   const auto axis = static_cast<size_t>(probe.axis);
   switch (probe.kind) {
@@ -92,7 +96,8 @@ const char* unit(const Probe& p) {
 
 }  // namespace
 
-Probes::Probes(const Simulation& m) : scene_(m.scene) {
+template <class Real>
+Probes::Probes(const SimulationOf<Real>& m) : scene_(m.scene) {
   const auto named = [](const auto& list, const std::string& name) {
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
     return static_cast<int>(at - list.begin());
@@ -114,11 +119,19 @@ std::vector<HistoryColumn> Probes::columns() const {
   return list;
 }
 
-std::vector<double> Probes::read(const Simulation& m) const {
+template <class Real>
+std::vector<double> Probes::read(const SimulationOf<Real>& m) const {
   std::vector<double> values;
   for (size_t i = 0; i < target_.size(); ++i)
     values.push_back(read_one(m, m.scene.probes[i], target_[i]));
   return values;
 }
+
+#define RIVEN_PROBES(Real)                            \
+  template Probes::Probes(const SimulationOf<Real>&); \
+  template std::vector<double> Probes::read(const SimulationOf<Real>&) const;
+RIVEN_PROBES(double)
+RIVEN_PROBES(float)
+#undef RIVEN_PROBES
 
 }  // namespace riven

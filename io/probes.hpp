@@ -10,11 +10,13 @@ namespace riven {
 class Probes {
  public:
   /// Finds each probe's particle, crack or grip in the first state.
-  explicit Probes(const Simulation& simulation);
+  template <class Real>
+  explicit Probes(const SimulationOf<Real>& simulation);
 
   std::vector<HistoryColumn> columns() const;
   /// One value per probe, in the scene's order.
-  std::vector<double> read(const Simulation& simulation) const;
+  template <class Real>
+  std::vector<double> read(const SimulationOf<Real>& simulation) const;
 
  private:
   const Scene& scene_;

@@ -21,9 +21,10 @@ namespace riven {
 namespace {
 
 /// The quantities of every run, then the grips, the tips of cracks, and the scene's probes.
+template <class Real>
 class Recorder {
  public:
-  Recorder(const std::filesystem::path& folder, const Simulation& m)
+  Recorder(const std::filesystem::path& folder, const SimulationOf<Real>& m)
       : m_(m), probes_(m), history_(folder / "history.csv", columns(m, probes_)) {}
 
   void row() {
@@ -54,7 +55,7 @@ class Recorder {
   }
 
  private:
-  static std::vector<HistoryColumn> columns(const Simulation& m, const Probes& probes) {
+  static std::vector<HistoryColumn> columns(const SimulationOf<Real>& m, const Probes& probes) {
     std::vector<HistoryColumn> c{{"time", "s"},
                                  {"dt", "s"},
                                  {"kinetic", "J"},
@@ -81,12 +82,13 @@ class Recorder {
     return c;
   }
 
-  const Simulation& m_;
+  const SimulationOf<Real>& m_;
   Probes probes_;
   History history_;
 };
 
-std::vector<Summary::Warning> warnings(const Simulation& m) {
+template <class Real>
+std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   std::vector<Summary::Warning> list;
   const CrackFields& f = m.state.fields;
   if (f.warning_both_sides > 0)
@@ -109,7 +111,8 @@ std::vector<Summary::Warning> warnings(const Simulation& m) {
 
 }  // namespace
 
-Summary summarize(const Simulation& m, double wall_seconds) {
+template <class Real>
+Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   const auto& s = m.state;
   const Energy& e = s.ledger.energy;
   Summary out;
@@ -124,8 +127,9 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   out.threads = m.space.threads();
   out.exec = exec::name(m.space.kind());
   out.scatter = name_of(m.plan.scatter);
+  out.precision = name_of(m.scene.precision);
   out.effects = m.plan.effects();
-  for (const Task& t : m.tasks)
+  for (const TaskOf<Real>& t : m.tasks)
     out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
   out.energy = {e.kinetic, e.strain,   e.cohesive,  e.external_work, e.damping,
                 e.contact, e.fracture, e.debonding, e.numerical(),   e.relative_error()};
@@ -139,7 +143,8 @@ Summary summarize(const Simulation& m, double wall_seconds) {
   return out;
 }
 
-Summary run_scene(Simulation& m, const RunOptions& options) {
+template <class Real>
+Summary run_scene(SimulationOf<Real>& m, const RunOptions& options) {
   const Scene& scene = m.scene;
   const Clock& clock = m.state.clock;
   make_folder(options.folder);
@@ -194,5 +199,12 @@ Summary run_scene(Simulation& m, const RunOptions& options) {
   progress.finish();
   return close("done", "");
 }
+
+#define RIVEN_RUN(Real)                                          \
+  template Summary summarize(const SimulationOf<Real>&, double); \
+  template Summary run_scene(SimulationOf<Real>&, const RunOptions&);
+RIVEN_RUN(double)
+RIVEN_RUN(float)
+#undef RIVEN_RUN
 
 }  // namespace riven

@@ -15,9 +15,11 @@ struct RunOptions {
 /// Writes the results of `simulation` into the folder. A run that goes wrong ends with status "unstable" and what was
 /// computed so far on disk, its last state as the last frame; the Error is then thrown on. Throws Error (file) when
 /// results cannot be written.
-Summary run_scene(Simulation& simulation, const RunOptions& options);
+template <class Real>
+Summary run_scene(SimulationOf<Real>& simulation, const RunOptions& options);
 
 /// The summary of a simulation as it stands.
-Summary summarize(const Simulation& simulation, double wall_seconds);
+template <class Real>
+Summary summarize(const SimulationOf<Real>& simulation, double wall_seconds);
 
 }  // namespace riven

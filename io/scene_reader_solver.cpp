@@ -15,7 +15,7 @@ void read_grid(const Table& root, Scene& s) {
 void read_solver(const Table& root, Scene& s) {
   const Table t =
       root.table("solver", {"time", "plane", "thickness", "shape", "transfer", "order", "pic_fraction", "stress_update",
-                            "cfl", "dt_max", "scatter", "deterministic", "exec", "threads"});
+                            "cfl", "dt_max", "scatter", "deterministic", "precision", "exec", "threads"});
   s.end_time = t.quantity("time", dimension::time, range::positive);
   s.plane = t.choice("plane", std::optional(s.plane));
   s.thickness = t.quantity("thickness", dimension::length, range::positive, s.thickness);
@@ -30,6 +30,7 @@ void read_solver(const Table& root, Scene& s) {
   s.scatter = t.choice("scatter", std::optional(s.scatter));
   if (s.deterministic && s.scatter != ScatterKind::ordered)
     t.refuse("scatter", "a deterministic run needs ordered scatter", "ordered", "leave the key 'scatter' out");
+  s.precision = t.choice("precision", std::optional(s.precision));
   s.exec = t.choice("exec", std::optional(s.exec));
   s.threads = t.integer("threads", 0, 4096, s.threads);
   read_grid(root, s);

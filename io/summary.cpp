@@ -71,6 +71,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["threads"] = s.threads;
   j["exec"] = s.exec;
   j["scatter"] = s.scatter;
+  j["precision"] = s.precision;
   j["effects"] = s.effects;
   j["tasks"] = list(s.tasks, [](const Summary::Task& t) {
     return Json{{"label", t.label}, {"effect", t.effect}, {"calls", t.calls}, {"seconds", number(t.seconds)}};

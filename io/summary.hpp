@@ -67,7 +67,7 @@ struct Summary {
   double particle_steps_per_second = 0;
   long peak_memory_bytes = 0;  ///< set-up and output included
   int threads = 1;
-  std::string exec, scatter;
+  std::string exec, scatter, precision;
   std::vector<std::string> effects;
   std::vector<Task> tasks;
   Energy energy;

@@ -76,8 +76,12 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
   return sums;
 }
 
-template void momenta_to_velocities(const exec::Space&, State<double, 2>&, double*);
-template void advance_grid(const exec::Space&, State<double, 2>&, bool, double);
-template GridSums grid_sums(const exec::Space&, const State<double, 2>&, double);
+#define RIVEN_ADVANCE_GRID(Real)                                                   \
+  template void momenta_to_velocities(const exec::Space&, State<Real, 2>&, Real*); \
+  template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);   \
+  template GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double);
+RIVEN_ADVANCE_GRID(double)
+RIVEN_ADVANCE_GRID(float)
+#undef RIVEN_ADVANCE_GRID
 
 }  // namespace riven

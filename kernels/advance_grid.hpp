@@ -29,10 +29,11 @@ void advance_grid(const exec::Space&, State<Real, 2>&, bool from_velocity, doubl
 template <class Real>
 GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double damping);
 
-/// Masses below this are rounding remains, not matter: far below 1e-12 of any momentum.
+/// Masses below this are rounding remains, not matter: far below 1e-12 of any momentum. In float more of them are, and
+/// their inverses must not overflow.
 template <class Real>
 double mass_cutoff(const State<Real, 2>& s) {
-  return 1e-20 * s.particle_mass;
+  return (sizeof(Real) == sizeof(double) ? 1e-20 : 1e-16) * s.particle_mass;
 }
 
 }  // namespace riven

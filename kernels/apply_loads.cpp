@@ -123,8 +123,12 @@ void settle_loads(State<Real, 2>& s) {
   }
 }
 
-template void make_loads(const Scene&, State<double, 2>&);
-template void apply_loads(const Plan&, State<double, 2>&);
-template void settle_loads(State<double, 2>&);
+#define RIVEN_APPLY_LOADS(Real)                            \
+  template void make_loads(const Scene&, State<Real, 2>&); \
+  template void apply_loads(const Plan&, State<Real, 2>&); \
+  template void settle_loads(State<Real, 2>&);
+RIVEN_APPLY_LOADS(double)
+RIVEN_APPLY_LOADS(float)
+#undef RIVEN_APPLY_LOADS
 
 }  // namespace riven

@@ -111,12 +111,13 @@ void settle_tractions(const std::vector<PointForces>& forces, State<Real, 2>& s)
   }
 }
 
-#define RIVEN_TRACTIONS(Shape, Real) \
-  template void apply_tractions<Shape, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);
-RIVEN_TRACTIONS(Linear, double)
-RIVEN_TRACTIONS(UGimp, double)
-RIVEN_TRACTIONS(BSpline, double)
+#define RIVEN_TRACTIONS(Real)                                                                                   \
+  template void apply_tractions<Linear, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);  \
+  template void apply_tractions<UGimp, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);   \
+  template void apply_tractions<BSpline, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&); \
+  template void settle_tractions(const std::vector<PointForces>&, State<Real, 2>&);
+RIVEN_TRACTIONS(double)
+RIVEN_TRACTIONS(float)
 #undef RIVEN_TRACTIONS
-template void settle_tractions(const std::vector<PointForces>&, State<double, 2>&);
 
 }  // namespace riven

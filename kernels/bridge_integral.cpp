@@ -13,7 +13,8 @@ namespace {
 /// Cells from a tip within which nodes are bridged.
 constexpr double extent = 2.5;
 
-void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& bridge, Vec2 end, bool own, TipTask& task) {
+template <class Real>
+void add_bridge(const State<Real, 2>& s, const Tip& tip, const TipBridge& bridge, Vec2 end, bool own, TipTask& task) {
   const Lattice& l = s.grid.lattice;
   const Vec2 t = heading_of(s.cracks, tip);
   const double at_tip = task.domain.weight(end - task.domain.tip), inv = 1 / s.thickness[tip.body];
@@ -41,7 +42,8 @@ void add_bridge(const State<double, 2>& s, const Tip& tip, const TipBridge& brid
 
 }  // namespace
 
-void add_bridges(const State<double, 2>& s, const std::vector<TipBridge>& bridges, const TipPlaces& places,
+template <class Real>
+void add_bridges(const State<Real, 2>& s, const std::vector<TipBridge>& bridges, const TipPlaces& places,
                  TipTask& task) {
   const double h = s.grid.lattice.h;
   const JDomain& d = task.domain;
@@ -61,5 +63,11 @@ void add_bridges(const State<double, 2>& s, const std::vector<TipBridge>& bridge
       add_bridge(s, tip, bridges[k], places[k], tip.crack == task.crack && tip.last == task.last, task);
   });
 }
+
+#define RIVEN_BRIDGES(Real) \
+  template void add_bridges(const State<Real, 2>&, const std::vector<TipBridge>&, const TipPlaces&, TipTask&);
+RIVEN_BRIDGES(double)
+RIVEN_BRIDGES(float)
+#undef RIVEN_BRIDGES
 
 }  // namespace riven

@@ -17,6 +17,7 @@
 namespace riven {
 
 /// Adds those of all tips near the domain to the sums of a task. `bridges` and `places`: of State::tips.
-void add_bridges(const State<double, 2>&, const std::vector<TipBridge>& bridges, const TipPlaces& places, TipTask&);
+template <class Real>
+void add_bridges(const State<Real, 2>&, const std::vector<TipBridge>& bridges, const TipPlaces& places, TipTask&);
 
 }  // namespace riven

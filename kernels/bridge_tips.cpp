@@ -175,7 +175,11 @@ double bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactSt
   return 0;
 }
 
-template void list_bridges(const exec::Space&, const State<double, 2>&, std::vector<TipBridge>&);
-template double bridge_tips(State<double, 2>&, std::vector<TipBridge>&, ContactStage);
+#define RIVEN_BRIDGE_TIPS(Real)                                                                   \
+  template void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&); \
+  template double bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage);
+RIVEN_BRIDGE_TIPS(double)
+RIVEN_BRIDGE_TIPS(float)
+#undef RIVEN_BRIDGE_TIPS
 
 }  // namespace riven

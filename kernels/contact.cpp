@@ -362,9 +362,11 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
   }
 }
 
-template void contact(const exec::Space&, Grid<float>&, const CrackFields&, const Cracks&, const ContactRules&,
-                      ContactStage, double, const ContactParticles<float>&, ContactSums&, ContactReport&);
-template void contact(const exec::Space&, Grid<double>&, const CrackFields&, const Cracks&, const ContactRules&,
-                      ContactStage, double, const ContactParticles<double>&, ContactSums&, ContactReport&);
+#define RIVEN_CONTACT(Real)                                                                                      \
+  template void contact(const exec::Space&, Grid<Real>&, const CrackFields&, const Cracks&, const ContactRules&, \
+                        ContactStage, double, const ContactParticles<Real>&, ContactSums&, ContactReport&);
+RIVEN_CONTACT(double)
+RIVEN_CONTACT(float)
+#undef RIVEN_CONTACT
 
 }  // namespace riven

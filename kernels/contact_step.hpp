@@ -4,10 +4,15 @@
 
 namespace riven {
 
-void sum_for_contact(Simulation&);
-void contact_before_update(Simulation&);
-void contact_after_update(Simulation&);
-void contact_on_high(Simulation&);
-void contact_after_extrapolation(Simulation&);
+template <class Real>
+void sum_for_contact(SimulationOf<Real>&);
+template <class Real>
+void contact_before_update(SimulationOf<Real>&);
+template <class Real>
+void contact_after_update(SimulationOf<Real>&);
+template <class Real>
+void contact_on_high(SimulationOf<Real>&);
+template <class Real>
+void contact_after_extrapolation(SimulationOf<Real>&);
 
 }  // namespace riven

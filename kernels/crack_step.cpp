@@ -8,7 +8,8 @@
 
 namespace riven {
 
-void hash_if_due(Simulation& m) {
+template <class Real>
+void hash_if_due(SimulationOf<Real>& m) {
   auto& s = m.state;
   if (!hash_due(m.space, s.grid.lattice, s.cracks, s.fields))
     return;
@@ -18,7 +19,8 @@ void hash_if_due(Simulation& m) {
   size_grid(m.plan, s);
 }
 
-void find_fields(Simulation& m) {
+template <class Real>
+void find_fields(SimulationOf<Real>& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
     determine_fields<typename decltype(shape)::type>(m.space, s.particles, s.domains.data(), s.grid.lattice, s.cracks,
@@ -26,17 +28,28 @@ void find_fields(Simulation& m) {
   });
 }
 
-void load_faces(Simulation& m) {
+template <class Real>
+void load_faces(SimulationOf<Real>& m) {
   with_shape(m.plan.shape,
              [&](auto shape) { apply_tractions<typename decltype(shape)::type>(m.space, m.state, m.point_forces); });
 }
 
-void move_with_grid(Simulation& m) {
+template <class Real>
+void move_with_grid(SimulationOf<Real>& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
     move_cracks<typename decltype(shape)::type>(m.space, s.grid, s.fields,
                                                 {m.scene.crack_motion, m.scene.surface_update}, s.clock.dt, s.cracks);
   });
 }
+
+#define RIVEN_TASKS(Real)                         \
+  template void hash_if_due(SimulationOf<Real>&); \
+  template void find_fields(SimulationOf<Real>&); \
+  template void load_faces(SimulationOf<Real>&);  \
+  template void move_with_grid(SimulationOf<Real>&);
+RIVEN_TASKS(double)
+RIVEN_TASKS(float)
+#undef RIVEN_TASKS
 
 }  // namespace riven

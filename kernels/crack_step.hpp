@@ -4,9 +4,13 @@
 
 namespace riven {
 
-void hash_if_due(Simulation&);
-void find_fields(Simulation&);
-void load_faces(Simulation&);
-void move_with_grid(Simulation&);
+template <class Real>
+void hash_if_due(SimulationOf<Real>&);
+template <class Real>
+void find_fields(SimulationOf<Real>&);
+template <class Real>
+void load_faces(SimulationOf<Real>&);
+template <class Real>
+void move_with_grid(SimulationOf<Real>&);
 
 }  // namespace riven

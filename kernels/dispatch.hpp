@@ -1,5 +1,6 @@
 // From choices made at run time to kernels compiled for them: the one place, and the one table of what exists.
 //
+//   Real    double, float: of a whole simulation
 //   shape   linear, uGIMP, B-spline
 //   law     linear elastic (with or without the deformation gradient), neo-Hookean, both
 //   flags   of one kernel each
@@ -18,6 +19,14 @@ template <class T>
 struct Type {
   using type = T;
 };
+
+template <class Real>
+inline constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Precision::as_double : Precision::as_float;
+
+template <class F>
+decltype(auto) with_precision(Precision precision, F&& f) {
+  return precision == Precision::as_float ? f(Type<float>{}) : f(Type<double>{});
+}
 
 template <class F>
 decltype(auto) with_shape(ShapeFunction shape, F&& f) {

@@ -43,9 +43,10 @@ struct Due {
   bool to_draw_in = false;  ///< some do not, and have room to be drawn in
 };
 
+template <class Real>
 class JSearch {
  public:
-  JSearch(Simulation& m, bool report)
+  JSearch(SimulationOf<Real>& m, bool report)
       : m_(m), s_(m.state), report_(report), half_(0.5 * m.scene.fracture.contour * m.scene.cell) {
     solids_.reserve(m.scene.materials.size());
     for (const Material& material : m.scene.materials)
@@ -217,8 +218,8 @@ class JSearch {
     tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
   }
 
-  Simulation& m_;
-  State<double, 2>& s_;
+  SimulationOf<Real>& m_;
+  State<Real, 2>& s_;
   bool report_;
   double half_;
   std::vector<PlaneElasticity> solids_;
@@ -226,29 +227,45 @@ class JSearch {
 };
 
 /// One stage; `reaches_particles` is the part of its change in energy that the particles take over.
-void bridge(Simulation& m, ContactStage stage, double reaches_particles) {
+template <class Real>
+void bridge(SimulationOf<Real>& m, ContactStage stage, double reaches_particles) {
   m.state.ledger.energy.contact -= reaches_particles * bridge_tips(m.state, m.bridges, stage);
 }
 
 }  // namespace
 
-void bridge_before_update(Simulation& m) {
+template <class Real>
+void bridge_before_update(SimulationOf<Real>& m) {
   list_bridges(m.space, m.state, m.bridges);
   bridge(m, ContactStage::before, m.early_impulse());
 }
-void bridge_after_update(Simulation& m) {
+template <class Real>
+void bridge_after_update(SimulationOf<Real>& m) {
   bridge(m, ContactStage::after, 1);
 }
-void bridge_on_high(Simulation& m) {
+template <class Real>
+void bridge_on_high(SimulationOf<Real>& m) {
   bridge(m, ContactStage::higher, 1);
 }
-void bridge_after_extrapolation(Simulation& m) {
+template <class Real>
+void bridge_after_extrapolation(SimulationOf<Real>& m) {
   bridge(m, ContactStage::again, 0);
 }
 
-void find_j_and_k(Simulation& m) {
+template <class Real>
+void find_j_and_k(SimulationOf<Real>& m) {
   const Clock& c = m.state.clock;
   JSearch(m, report_due(m.scene, c.time, c.time + c.dt)).run();
 }
+
+#define RIVEN_TASKS(Real)                                        \
+  template void bridge_before_update(SimulationOf<Real>&);       \
+  template void bridge_after_update(SimulationOf<Real>&);        \
+  template void bridge_on_high(SimulationOf<Real>&);             \
+  template void bridge_after_extrapolation(SimulationOf<Real>&); \
+  template void find_j_and_k(SimulationOf<Real>&);
+RIVEN_TASKS(double)
+RIVEN_TASKS(float)
+#undef RIVEN_TASKS
 
 }  // namespace riven

@@ -5,7 +5,8 @@
 
 namespace riven {
 
-class Simulation;
+template <class Real>
+class SimulationOf;
 
 /// What went otherwise than hoped so far, and where first.
 struct FractureReport {
@@ -19,12 +20,17 @@ struct FractureReport {
 
 /// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth
 /// is about to be checked. Runs between the momentum update and the move, when Grid::q holds [vx vy ax ay].
-void find_j_and_k(Simulation&);
+template <class Real>
+void find_j_and_k(SimulationOf<Real>&);
 
 /// Tips end their cracks between nodes (bridge_tips.hpp), at each stage at which contact acts, and after it.
-void bridge_before_update(Simulation&);
-void bridge_after_update(Simulation&);
-void bridge_on_high(Simulation&);
-void bridge_after_extrapolation(Simulation&);
+template <class Real>
+void bridge_before_update(SimulationOf<Real>&);
+template <class Real>
+void bridge_after_update(SimulationOf<Real>&);
+template <class Real>
+void bridge_on_high(SimulationOf<Real>&);
+template <class Real>
+void bridge_after_extrapolation(SimulationOf<Real>&);
 
 }  // namespace riven

@@ -19,10 +19,11 @@ constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face e
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on
 constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
 
+template <class Real>
 class Growth {
  public:
   /// `boxes`: around the cracks as they are.
-  Growth(Simulation& m, Tip& tip, const std::vector<Rectangle>& boxes)
+  Growth(SimulationOf<Real>& m, Tip& tip, const std::vector<Rectangle>& boxes)
       : scene_(m.scene), s_(m.state), tip_(tip), boxes_(boxes) {
     const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
     rule_ = growth_rule(scene_, tip.crack);
@@ -205,7 +206,7 @@ class Growth {
   }
 
   const Scene& scene_;
-  State<double, 2>& s_;
+  State<Real, 2>& s_;
   Tip& tip_;
   const std::vector<Rectangle>& boxes_;
   const GrowthRule* rule_;
@@ -216,7 +217,8 @@ class Growth {
 
 }  // namespace
 
-void grow_cracks(Simulation& m) {
+template <class Real>
+void grow_cracks(SimulationOf<Real>& m) {
   auto& s = m.state;
   tie_junctions(s.cracks, m.scene.cell);
   std::vector<Rectangle> boxes;  // only once a tip is due
@@ -229,5 +231,8 @@ void grow_cracks(Simulation& m) {
     boxes[static_cast<size_t>(tip.crack)] = box_of(s.cracks, tip.crack);
   }
 }
+
+template void grow_cracks(SimulationOf<double>&);
+template void grow_cracks(SimulationOf<float>&);
 
 }  // namespace riven

@@ -17,8 +17,10 @@
 
 namespace riven {
 
-class Simulation;
+template <class Real>
+class SimulationOf;
 
-void grow_cracks(Simulation&);
+template <class Real>
+void grow_cracks(SimulationOf<Real>&);
 
 }  // namespace riven

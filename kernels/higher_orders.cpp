@@ -77,6 +77,9 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
   }
 }
 
-template void higher_orders(const exec::Space&, const Plan&, State<double, 2>&);
+#define RIVEN_HIGHER_ORDERS(Real) template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);
+RIVEN_HIGHER_ORDERS(double)
+RIVEN_HIGHER_ORDERS(float)
+#undef RIVEN_HIGHER_ORDERS
 
 }  // namespace riven

@@ -260,6 +260,10 @@ void sum_around_tips(const exec::Space& space, const Plan& plan, const State<Rea
   });
 }
 
-template void sum_around_tips(const exec::Space&, const Plan&, const State<double, 2>&, std::vector<TipTask>&);
+#define RIVEN_J_INTEGRAL(Real) \
+  template void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, std::vector<TipTask>&);
+RIVEN_J_INTEGRAL(double)
+RIVEN_J_INTEGRAL(float)
+#undef RIVEN_J_INTEGRAL
 
 }  // namespace riven

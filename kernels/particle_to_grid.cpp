@@ -84,7 +84,11 @@ void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>
   });
 }
 
-template void clear_grid(const exec::Space&, State<double, 2>&);
-template void particle_to_grid(const exec::Space&, const Plan&, State<double, 2>&, bool, Vec2);
+#define RIVEN_PARTICLE_TO_GRID(Real)                             \
+  template void clear_grid(const exec::Space&, State<Real, 2>&); \
+  template void particle_to_grid(const exec::Space&, const Plan&, State<Real, 2>&, bool, Vec2);
+RIVEN_PARTICLE_TO_GRID(double)
+RIVEN_PARTICLE_TO_GRID(float)
+#undef RIVEN_PARTICLE_TO_GRID
 
 }  // namespace riven

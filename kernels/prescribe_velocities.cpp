@@ -203,9 +203,13 @@ void settle_constraints(State<Real, 2>& s) {
       p += c.owners[static_cast<size_t>(g.owner)].move(s.clock.dt);
 }
 
-template void make_constraints(const Scene&, State<double, 2>&);
-template void list_constraints(const Plan&, State<double, 2>&);
-template void prescribe_velocities(const exec::Space&, State<double, 2>&, Stage, double);
-template void settle_constraints(State<double, 2>&);
+#define RIVEN_PRESCRIBE_VELOCITIES(Real)                                                  \
+  template void make_constraints(const Scene&, State<Real, 2>&);                          \
+  template void list_constraints(const Plan&, State<Real, 2>&);                           \
+  template void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double); \
+  template void settle_constraints(State<Real, 2>&);
+RIVEN_PRESCRIBE_VELOCITIES(double)
+RIVEN_PRESCRIBE_VELOCITIES(float)
+#undef RIVEN_PRESCRIBE_VELOCITIES
 
 }  // namespace riven

@@ -74,8 +74,12 @@ void check_energy(const State<Real, 2>& s, double limit, bool reaches_particles)
         fmt::format("{:.3g} % (limits.energy_growth)", 100 * limit), cures});
 }
 
-template void particle_left_grid(const State<double, 2>&, long);
-template void check_particles(const State<double, 2>&);
-template void check_energy(const State<double, 2>&, double, bool);
+#define RIVEN_REPORT_TROUBLE(Real)                               \
+  template void particle_left_grid(const State<Real, 2>&, long); \
+  template void check_particles(const State<Real, 2>&);          \
+  template void check_energy(const State<Real, 2>&, double, bool);
+RIVEN_REPORT_TROUBLE(double)
+RIVEN_REPORT_TROUBLE(float)
+#undef RIVEN_REPORT_TROUBLE
 
 }  // namespace riven

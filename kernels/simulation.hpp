@@ -12,21 +12,27 @@
 
 namespace riven {
 
-class Simulation;
+template <class Real>
+class SimulationOf;
 
 /// One line of the step. `effect` is what asked for it, empty for what every step needs.
-struct Task {
+template <class Real>
+struct TaskOf {
   std::string label;
   std::string effect;
-  std::function<void(Simulation&)> run;
+  std::function<void(SimulationOf<Real>&)> run;
   long calls = 0;
   double seconds = 0;
 };
 
-class Simulation {
+/// Real: what particles and nodes hold, as the scene says (with_precision in dispatch.hpp).
+template <class Real>
+class SimulationOf {
  public:
+  using Task = TaskOf<Real>;
+
   /// Scene and space must outlive the simulation. Throws Error (bad input).
-  Simulation(const Scene& scene, const exec::Space& space);
+  SimulationOf(const Scene& scene, const exec::Space& space);
 
   /// One time step: the tasks, in order. Throws Error (unstable) when the step went wrong.
   void step();
@@ -37,7 +43,7 @@ class Simulation {
   const Scene& scene;
   const exec::Space& space;
   const Plan plan;
-  State<double, 2> state;
+  State<Real, 2> state;
   std::vector<Task> tasks;
 
   // contact's work space and what it did so far
@@ -56,6 +62,10 @@ class Simulation {
 };
 
 /// The tasks of a step, as the plan asks. Printed by `riven plan` and, with times, at the end of a run.
-std::vector<Task> assemble_step(const Scene&, const Plan&);
+template <class Real>
+std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&);
+
+using Simulation = SimulationOf<double>;
+using Task = Simulation::Task;
 
 }  // namespace riven

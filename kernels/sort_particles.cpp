@@ -107,7 +107,11 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
     s.loads.position[static_cast<size_t>(p.id[i])] = static_cast<int>(i);
 }
 
-template bool sort_due(const State<double, 2>&);
-template void sort_particles(const exec::Space&, const Plan&, State<double, 2>&);
+#define RIVEN_SORT_PARTICLES(Real)               \
+  template bool sort_due(const State<Real, 2>&); \
+  template void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);
+RIVEN_SORT_PARTICLES(double)
+RIVEN_SORT_PARTICLES(float)
+#undef RIVEN_SORT_PARTICLES
 
 }  // namespace riven

@@ -2,12 +2,14 @@
 // (Nairn and Aimene, section 2.1).
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/exec/timers.hpp"
 #include "core/state/make_state.hpp"
 #include "kernels/advance_grid.hpp"
 #include "kernels/apply_loads.hpp"
 #include "kernels/contact_step.hpp"
 #include "kernels/crack_step.hpp"
+#include "kernels/dispatch.hpp"
 #include "kernels/grid_to_particle.hpp"
 #include "kernels/grow_cracks.hpp"
 #include "kernels/higher_orders.hpp"
@@ -27,7 +29,8 @@ namespace {
 /// Steps between two measurements of the fastest wave and particle, unless particles speed up sooner.
 constexpr long speed_interval = 20;
 
-void set_time_step(Simulation& m) {
+template <class Real>
+void set_time_step(SimulationOf<Real>& m) {
   Clock& c = m.state.clock;
   const bool faster = m.state.watch.largest_move > 1.2 * c.measured_speed * c.dt;
   if (c.step % speed_interval == 0 || faster) {
@@ -46,12 +49,14 @@ void set_time_step(Simulation& m) {
   }
 }
 
-void sort_if_due(Simulation& m) {
+template <class Real>
+void sort_if_due(SimulationOf<Real>& m) {
   if (sort_due(m.state))
     sort_particles(m.space, m.plan, m.state);
 }
 
-void book_fields(Simulation& m) {
+template <class Real>
+void book_fields(SimulationOf<Real>& m) {
   const double dt = m.state.clock.dt, damping = m.grid_damping();
   const GridSums sums = grid_sums(m.space, m.state, damping);
   Ledger& l = m.state.ledger;
@@ -62,14 +67,17 @@ void book_fields(Simulation& m) {
   l.energy.damping += sums.damping_work;
 }
 
-TransferRule rule(const Simulation& m) {
+template <class Real>
+TransferRule rule(const SimulationOf<Real>& m) {
   return transfer_rule(m.plan, m.scene.pic_fraction, m.particle_damping(), m.state.clock.dt);
 }
 
 }  // namespace
 
-std::vector<Task> assemble_step(const Scene&, const Plan& p) {
-  std::vector<Task> list;
+template <class Real>
+std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
+  using Simulation = SimulationOf<Real>;  // that of the tasks
+  std::vector<TaskOf<Real>> list;
   const auto add = [&](bool wanted, const char* label, const char* effect, std::function<void(Simulation&)> run) {
     if (wanted)
       list.push_back({label, effect, std::move(run)});
@@ -77,38 +85,39 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   const bool before = p.stress_before(), again = p.extrapolate_again();
   const bool fields = p.body_force || p.grid_damping;
 
-  add(true, "time step", "", set_time_step);
-  add(true, "sort particles", "", sort_if_due);
-  add(p.cracks, "hash cracks", "cracks", hash_if_due);
-  add(p.cracks, "determine fields", "cracks", find_fields);
+  add(true, "time step", "", set_time_step<Real>);
+  add(true, "sort particles", "", sort_if_due<Real>);
+  add(p.cracks, "hash cracks", "cracks", hash_if_due<Real>);
+  add(p.cracks, "determine fields", "cracks", find_fields<Real>);
   add(true, "clear grid", "", [](Simulation& m) { clear_grid(m.space, m.state); });
   add(true, "particle to grid", "",
       [before](Simulation& m) { particle_to_grid(m.space, m.plan, m.state, !before, m.gravity()); });
-  add(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact);
+  add(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact<Real>);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
     list_constraints(m.plan, m.state);
     prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
-  add(p.contact, "contact before", "contact", contact_before_update);
-  add(p.fracture, "bridge tips before", "J", bridge_before_update);
+  add(p.contact, "contact before", "contact", contact_before_update<Real>);
+  add(p.fracture, "bridge tips before", "J", bridge_before_update<Real>);
   add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
   add(before, "stress before, forces", "",
       [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.plan, m.state); });
-  add(p.tractions, "tractions", "tractions", load_faces);
+  add(p.tractions, "tractions", "tractions", load_faces<Real>);
   add(true, "advance grid", "", [before](Simulation& m) { advance_grid(m.space, m.state, before, m.grid_damping()); });
   add(p.constraints, "boundary after", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::after); });
-  add(p.contact, "contact after", "contact", contact_after_update);
-  add(p.fracture, "bridge tips after", "J", bridge_after_update);
-  add(p.fracture, "J and K", "J", find_j_and_k);
-  add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields);
+  add(p.contact, "contact after", "contact", contact_after_update<Real>);
+  add(p.fracture, "bridge tips after", "J", bridge_after_update<Real>);
+  add(p.fracture, "J and K", "J", find_j_and_k<Real>);
+  add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields<Real>);
   add(p.particle_damping, "particle damping sums", "particle damping",
       [](Simulation& m) { book_particle_damping(m.space, m.particle_damping(), m.state); });
   add(p.higher_order() && p.order > 1, "higher orders", "higher orders",
       [](Simulation& m) { higher_orders(m.space, m.plan, m.state); });
-  add(p.higher_order() && p.order > 1 && p.contact, "contact on higher orders", "higher orders", contact_on_high);
-  add(p.higher_order() && p.order > 1 && p.fracture, "bridge tips on higher orders", "higher orders", bridge_on_high);
+  add(p.higher_order() && p.order > 1 && p.contact, "contact on higher orders", "higher orders", contact_on_high<Real>);
+  add(p.higher_order() && p.order > 1 && p.fracture, "bridge tips on higher orders", "higher orders",
+      bridge_on_high<Real>);
   add(!again, "grid to particle", "",
       [before](Simulation& m) { grid_to_particle(m.space, m.plan, m.state, rule(m), !before); });
   add(again, "grid to particle, extrapolate again", "", [](Simulation& m) {
@@ -117,22 +126,25 @@ std::vector<Task> assemble_step(const Scene&, const Plan& p) {
   });
   add(again && p.constraints, "boundary again", "boundary",
       [](Simulation& m) { prescribe_velocities(m.space, m.state, Stage::again); });
-  add(again && p.contact, "contact again", "contact", contact_after_extrapolation);
-  add(again && p.fracture, "bridge tips again", "J", bridge_after_extrapolation);
+  add(again && p.contact, "contact again", "contact", contact_after_extrapolation<Real>);
+  add(again && p.fracture, "bridge tips again", "J", bridge_after_extrapolation<Real>);
   add(again, "velocities again", "",
       [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
-  add(p.cracks, "move cracks", "cracks", move_with_grid);
+  add(p.cracks, "move cracks", "cracks", move_with_grid<Real>);
   add(p.tractions, "tractions: work and damage", "tractions",
       [](Simulation& m) { settle_tractions(m.point_forces, m.state); });
-  add(p.growth, "grow cracks", "growth", grow_cracks);
+  add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) { settle_constraints(m.state); });
   return list;
 }
 
-Simulation::Simulation(const Scene& s, const exec::Space& where)
-    : scene(s), space(where), plan(make_plan(s)), tasks(assemble_step(s, plan)) {
+template <class Real>
+SimulationOf<Real>::SimulationOf(const Scene& s, const exec::Space& where)
+    : scene(s), space(where), plan(make_plan(s)), tasks(assemble_step<Real>(s, plan)) {
+  if (scene.precision != precision_of<Real>)
+    fail({Exit::internal, "the simulation has not the precision of its scene", s.name});
   make_state(scene, plan, state);
   if (plan.constraints)
     make_constraints(scene, state);
@@ -143,7 +155,8 @@ Simulation::Simulation(const Scene& s, const exec::Space& where)
   tally(space, plan, state);
 }
 
-void Simulation::step() {
+template <class Real>
+void SimulationOf<Real>::step() {
   for (Task& t : tasks) {
     const double start = exec::Stopwatch::now();
     t.run(*this);
@@ -155,25 +168,35 @@ void Simulation::step() {
   check_particles(state);
 }
 
-void Simulation::take_stock() {
+template <class Real>
+void SimulationOf<Real>::take_stock() {
   tally(space, plan, state);
   check_energy(state, scene.limits.energy_growth, !(plan.higher_order() && plan.order > 1));
 }
 
-Vec2 Simulation::gravity() const {
+template <class Real>
+Vec2 SimulationOf<Real>::gravity() const {
   const auto part = [&](int axis) {
     return scene.body_force[axis] ? (*scene.body_force[axis])(state.clock.time) : 0.0;
   };
   return {part(0), part(1)};
 }
-double Simulation::grid_damping() const {
+template <class Real>
+double SimulationOf<Real>::grid_damping() const {
   return scene.grid_damping ? (*scene.grid_damping)(state.clock.time) : 0;
 }
-double Simulation::particle_damping() const {
+template <class Real>
+double SimulationOf<Real>::particle_damping() const {
   return scene.particle_damping ? (*scene.particle_damping)(state.clock.time) : 0;
 }
-double Simulation::early_impulse() const {
+template <class Real>
+double SimulationOf<Real>::early_impulse() const {
   return plan.transfer == Transfer::flip ? 0 : plan.transfer == Transfer::pic ? scene.pic_fraction : 1;
 }
+
+template std::vector<TaskOf<double>> assemble_step(const Scene&, const Plan&);
+template std::vector<TaskOf<float>> assemble_step(const Scene&, const Plan&);
+template class SimulationOf<double>;
+template class SimulationOf<float>;
 
 }  // namespace riven

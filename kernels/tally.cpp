@@ -72,7 +72,11 @@ void book_particle_damping(const exec::Space& space, double damping, State<Real,
   s.ledger.momentum.torque_impulse -= d * t.angular;
 }
 
-template void book_particle_damping(const exec::Space&, double, State<double, 2>&);
-template void tally(const exec::Space&, const Plan&, State<double, 2>&);
+#define RIVEN_TALLY(Real)                                                           \
+  template void book_particle_damping(const exec::Space&, double, State<Real, 2>&); \
+  template void tally(const exec::Space&, const Plan&, State<Real, 2>&);
+RIVEN_TALLY(double)
+RIVEN_TALLY(float)
+#undef RIVEN_TALLY
 
 }  // namespace riven

@@ -26,11 +26,12 @@ struct TileReads {
   const Real* mass = nullptr;  ///< of nodes
 };
 
-/// Whether a step goes through more data than caches hold: about 17 numbers per particle. With 65,000 particles in
-/// double asking costs 2 to 3 % of a step, with 100,000 it saves 2 %, with 160,000 and cracks 5 to 9 %.
+/// Whether a step goes through more data than caches hold: about 17 numbers per particle, 7 of them always in double.
+/// With 65,000 particles in double asking costs 2 to 3 % of a step, with 100,000 it saves 2 %, with 160,000 and cracks
+/// 5 to 9 %.
 template <class Real>
 bool asking_pays(long particles) {
-  return particles * 17 * long{sizeof(Real)} > 12L << 20;
+  return particles * long{7 * sizeof(double) + 10 * sizeof(Real)} > 12L << 20;
 }
 
 /// The tile that comes after the one in hand. `reads` must outlive it.

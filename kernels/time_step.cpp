@@ -67,7 +67,11 @@ void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
   }
 }
 
-template Speeds measure_speeds(const exec::Space&, const Plan&, const State<double, 2>&);
-template void choose_time_step(const Scene&, const Speeds&, State<double, 2>&);
+#define RIVEN_TIME_STEP(Real)                                                             \
+  template Speeds measure_speeds(const exec::Space&, const Plan&, const State<Real, 2>&); \
+  template void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
+RIVEN_TIME_STEP(double)
+RIVEN_TIME_STEP(float)
+#undef RIVEN_TIME_STEP
 
 }  // namespace riven

@@ -141,7 +141,11 @@ void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Re
   });
 }
 
-template void update_stress_and_forces(const exec::Space&, const Plan&, State<double, 2>&, Vec2);
-template void update_stress_and_move(const exec::Space&, const Plan&, State<double, 2>&);
+#define RIVEN_UPDATE_STRESS(Real)                                                                 \
+  template void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, Vec2); \
+  template void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
+RIVEN_UPDATE_STRESS(double)
+RIVEN_UPDATE_STRESS(float)
+#undef RIVEN_UPDATE_STRESS
 
 }  // namespace riven

@@ -27,6 +27,7 @@ RIVEN_NAMES(StressUpdate, {{StressUpdate::usl, "usl"},
                            {StressUpdate::usavg, "usavg"}})
 RIVEN_NAMES(Plane, {{Plane::strain, "strain"}, {Plane::stress, "stress"}})
 RIVEN_NAMES(ScatterKind, {{ScatterKind::atomic, "atomic"}, {ScatterKind::ordered, "ordered"}})
+RIVEN_NAMES(Precision, {{Precision::as_double, "double"}, {Precision::as_float, "float"}})
 RIVEN_NAMES(LawKind, {{LawKind::linear_elastic, "linear_elastic"}, {LawKind::neo_hookean, "neo_hookean"}})
 RIVEN_NAMES(CrackMotion, {{CrackMotion::surfaces, "surfaces"}, {CrackMotion::center_of_mass, "center_of_mass"}})
 RIVEN_NAMES(SurfaceUpdate, {{SurfaceUpdate::xpic, "xpic"}, {SurfaceUpdate::flip, "flip"}, {SurfaceUpdate::pic, "pic"}})

@@ -27,6 +27,7 @@ enum class Transfer { flip, pic, xpic, fmpm };  ///< pic: FLIP blended with a fr
 enum class StressUpdate { usl, musl, usf, usavg };
 enum class Plane { strain, stress };
 enum class ScatterKind { atomic, ordered };
+enum class Precision { as_double, as_float };  ///< of what particles and nodes hold; see Particles
 enum class LawKind { linear_elastic, neo_hookean };
 enum class CrackMotion { surfaces, center_of_mass };  ///< how the crack plane moves
 enum class SurfaceUpdate { xpic, flip, pic };         ///< how the crack surfaces move
@@ -213,7 +214,8 @@ struct Scene {
   double cfl = 0.4;
   double dt_max = std::numeric_limits<double>::infinity();
   ScatterKind scatter = ScatterKind::ordered;  ///< on a CPU at least as fast as atomic, and of fixed order
-  bool deterministic = false;                  ///< same bits on any thread count (refuses atomic scatter)
+  Precision precision = Precision::as_double;
+  bool deterministic = false;  ///< same bits on any thread count (refuses atomic scatter)
   exec::Kind exec = exec::Kind::openmp;
   int threads = 0;  ///< 0 means all cores
 

@@ -190,8 +190,12 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   return list;
 }
 
-template void make_state(const Scene&, const Plan&, State<double, 2>&);
-template void size_grid(const Plan&, State<double, 2>&);
-template std::vector<ArrayReport> list_arrays(const State<double, 2>&);
+#define RIVEN_MAKE_STATE(Real)                                          \
+  template void make_state(const Scene&, const Plan&, State<Real, 2>&); \
+  template void size_grid(const Plan&, State<Real, 2>&);                \
+  template std::vector<ArrayReport> list_arrays(const State<Real, 2>&);
+RIVEN_MAKE_STATE(double)
+RIVEN_MAKE_STATE(float)
+#undef RIVEN_MAKE_STATE
 
 }  // namespace riven

@@ -79,9 +79,9 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   s.reactions = {{"upper", {1, -2}}};
   write_summary(folder / "summary.json", s);
   const auto j = nlohmann::json::parse(sample::text_of(folder / "summary.json"));
-  for (const char* key :
-       {"status", "steps", "time", "wall_seconds", "particles", "particle_steps_per_second", "peak_memory_bytes",
-        "threads", "exec", "scatter", "effects", "tasks", "energy", "momentum_error", "warnings", "tips", "probes"})
+  for (const char* key : {"status", "steps", "time", "wall_seconds", "particles", "particle_steps_per_second",
+                          "peak_memory_bytes", "threads", "exec", "scatter", "precision", "effects", "tasks", "energy",
+                          "momentum_error", "warnings", "tips", "probes"})
     EXPECT_TRUE(j.contains(key)) << key;
   for (const char* key : {"kinetic", "strain", "external_work", "damping", "contact", "fracture", "numerical"})
     EXPECT_TRUE(j["energy"][key].is_number()) << key;

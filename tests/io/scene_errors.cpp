@@ -40,6 +40,8 @@ const Wrong cases[] = {
      "kg/m^3"},
     {"unknown_choice", "plane = \"stress\"", "plane = \"stres\"", "plate.toml:4: solver.plane", "unknown name 'stres'",
      "'stress'"},
+    {"unknown_precision", "plane =", "precision = \"flaot\"\nplane =", "plate.toml:4: solver.precision",
+     "unknown name 'flaot'", "'float'"},
     {"unknown_material", "material = \"pmma\"", "material = \"pma\"", "plate.toml:16: body.0.material",
      "unknown name 'pma'", "'pmma'"},
     {"no_material", "material = \"pmma\"\n", "", "plate.toml:14: body.0.material", "missing key 'material'", "add"},

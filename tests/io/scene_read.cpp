@@ -194,6 +194,7 @@ TEST(ReadScene, WhatIsNotSaidIsListedWithItsDefault) {
   EXPECT_TRUE(said("solver.cfl = 0.4"));
   EXPECT_TRUE(said("solver.stress_update = usavg"));
   EXPECT_TRUE(said("solver.thickness = 0.001 m"));
+  EXPECT_TRUE(said("solver.precision = double"));
   EXPECT_TRUE(said("solver.dt_max = none"));
   EXPECT_TRUE(said("body.0.particles_per_cell = 2"));
   EXPECT_TRUE(said("contact.law = frictionless"));
@@ -209,6 +210,11 @@ TEST(ReadScene, DeterministicMeansOrderedScatter) {
   EXPECT_EQ(read(good_scene, {"solver.scatter=atomic"}).scatter, ScatterKind::atomic);
   const Trouble t = trouble_of(good_scene, {"solver.deterministic=true", "solver.scatter=atomic"});
   EXPECT_NE(t.what.find("deterministic"), std::string::npos);
+}
+
+TEST(ReadScene, PrecisionIsDoubleUnlessSaid) {
+  EXPECT_EQ(read(good_scene).precision, Precision::as_double);
+  EXPECT_EQ(read(good_scene, {"solver.precision=float"}).precision, Precision::as_float);
 }
 
 TEST(ReadScene, PointsOfACrackMayStartFromAnOrigin) {

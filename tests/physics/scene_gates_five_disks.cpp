@@ -51,7 +51,7 @@ struct Look {
     return most - least;
   }
   const Particles<double, 2>& p;
-  ParticleStress stress;
+  ParticleStress<double> stress;
   double k;
 };
 
