@@ -101,9 +101,10 @@ void run_callgrind(const std::vector<std::string>& options, const std::vector<st
 
 void dump_tasks(Runner& runner, int steps) {
   const long particle_steps = steps * runner.particles();
-  runner.measure_tasks([&runner, particle_steps](const Task& task, size_t, const std::function<void()>& work) {
+  const std::vector<TaskRecord> tasks = runner.tasks();
+  runner.measure_tasks([=, &runner](size_t index, const std::function<void()>& work) {
     const std::string name =
-        fmt::format("{}{}{}{}{}", runner.entrant().name, separator, particle_steps, separator, task.label);
+        fmt::format("{}{}{}{}{}", runner.entrant().name, separator, particle_steps, separator, tasks[index].label);
     CALLGRIND_ZERO_STATS;
     work();
     CALLGRIND_DUMP_STATS_AT(name.c_str());

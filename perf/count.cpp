@@ -55,13 +55,13 @@ Costs count_instructions(const fs::path& program, const std::string& slowed) {
 
 void step_for_callgrind(const std::string& slowed) {
   for (const GateScene& scene : gate_scenes()) {
-    Runner runner(scene.counted, exec::Kind::serial, 1);
-    runner.run(scene.warm_up);
+    const std::unique_ptr<Runner> runner = make_runner(scene.counted, exec::Kind::serial, 1);
+    runner->run(scene.warm_up);
     if (!slowed.empty())
-      runner.slow_down(slowed);
-    dump_tasks(runner, counted_steps);
+      runner->slow_down(slowed);
+    dump_tasks(*runner, counted_steps);
     CALLGRIND_START_INSTRUMENTATION;
-    runner.run(counted_steps);
+    runner->run(counted_steps);
     CALLGRIND_STOP_INSTRUMENTATION;
   }
 }

@@ -122,7 +122,7 @@ void update(const Options& o) {
 void check_label(const std::string& slowed) {
   std::vector<std::string> labels;
   for (const GateScene& scene : gate_scenes())
-    for (const Task& task : assemble_step(scene.counted.scene, make_plan(scene.counted.scene)))
+    for (const Task& task : assemble_step<double>(scene.counted.scene, make_plan(scene.counted.scene)))
       labels.push_back(task.label);
   if (std::find(labels.begin(), labels.end(), slowed) == labels.end())
     fail({Exit::bad_input, "no scene has a task of that label", "--slow-down", slowed, "the labels of `riven plan`",

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "kernels/simulation.hpp"
 #include "perf/callgrind.hpp"
 #include "perf/roofline.hpp"
 
@@ -37,7 +38,7 @@ std::vector<GateScene> kernel_scenes(bool quick) {
 SceneKernels::SceneKernels(GateScene scene, KernelOptions options, const MachineRates& rates)
     : scene_(std::move(scene)), options_(std::move(options)), rates_(rates) {
   const Scene& s = entrant_of(scene_, options_.quick).scene;
-  for (const Task& t : assemble_step(s, make_plan(s)))
+  for (const auto& t : assemble_step<double>(s, make_plan(s)))
     labels_.push_back(t.label);
   labels_.emplace_back("whole step");
 }
@@ -50,7 +51,7 @@ double SceneKernels::seconds(size_t task, size_t turn) {
   if (!runner_) {
     if (options_.count)
       count();
-    runner_ = std::make_unique<Runner>(entrant_of(scene_, options_.quick), exec::Kind::openmp, options_.threads);
+    runner_ = make_runner(entrant_of(scene_, options_.quick), exec::Kind::openmp, options_.threads);
     runner_->run(scene_.warm_up);
   }
   while (taken_.size() <= turn)
@@ -59,14 +60,14 @@ double SceneKernels::seconds(size_t task, size_t turn) {
 }
 
 void SceneKernels::take_turn() {
-  const std::vector<Task>& tasks = runner_->simulation().tasks;
-  std::vector<double> spent;
-  spent.reserve(tasks.size() + 1);
-  for (const Task& t : tasks)
-    spent.push_back(-t.seconds);
+  const std::vector<TaskRecord> before = runner_->tasks();
   runner_->run(scene_.steps);
-  for (size_t t = 0; t < tasks.size(); ++t)
-    spent[t] = (spent[t] + tasks[t].seconds) / (static_cast<double>(runner_->particles()) * scene_.steps);
+  const std::vector<TaskRecord> after = runner_->tasks();
+  std::vector<double> spent;
+  spent.reserve(after.size() + 1);
+  for (size_t t = 0; t < after.size(); ++t)
+    spent.push_back((after[t].seconds - before[t].seconds) /
+                    (static_cast<double>(runner_->particles()) * scene_.steps));
   spent.push_back(std::accumulate(spent.begin(), spent.end(), 0.0));
   taken_.push_back(std::move(spent));
 }
@@ -107,12 +108,12 @@ void step_for_operations(const std::string& scene, bool quick) {
   const auto g = std::find_if(all.begin(), all.end(), [&](const GateScene& x) { return x.timed.name == scene; });
   if (g == all.end())
     fail({Exit::bad_input, "no such scene", "--scene", scene});
-  Runner runner(entrant_of(*g, quick), exec::Kind::serial, 1);
-  runner.run(g->warm_up);
+  const std::unique_ptr<Runner> runner = make_runner(entrant_of(*g, quick), exec::Kind::serial, 1);
+  runner->run(g->warm_up);
   CALLGRIND_START_INSTRUMENTATION;
-  runner.run(1);
-  dump_tasks(runner, g->steps);
-  runner.run(g->steps);
+  runner->run(1);
+  dump_tasks(*runner, g->steps);
+  runner->run(g->steps);
   CALLGRIND_STOP_INSTRUMENTATION;
 }
 

@@ -5,8 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
-#include "core/state/make_state.hpp"
-#include "kernels/tally.hpp"
 #include "perf/median.hpp"
 #include "perf/operations.hpp"
 #include "perf/runner.hpp"
@@ -19,49 +17,46 @@ namespace {
 class Turns {
  public:
   Turns(const Entrant& entrant, int threads)
-      : runner_(entrant, exec::Kind::openmp, threads), task_(runner_.simulation().tasks.size()) {}
+      : runner_(make_runner(entrant, exec::Kind::openmp, threads)), task_(runner_->tasks().size()) {}
 
-  void warm_up(int steps) { runner_.run(steps); }
+  void warm_up(int steps) { runner_->run(steps); }
   void take_turn(int steps) {
-    const Simulation& m = runner_.simulation();
-    std::vector<double> before;
-    for (const Task& t : m.tasks)
-      before.push_back(t.seconds);
-    const long touched = m.contact_after.touching, points = m.state.cracks.points();
+    const std::vector<TaskRecord> before = runner_->tasks();
+    const long touched = runner_->contacts(), points = runner_->crack_points();
     const double start = exec::Stopwatch::now();
-    runner_.run(steps);
+    runner_->run(steps);
     seconds_.push_back((exec::Stopwatch::now() - start) / steps);
+    const std::vector<TaskRecord> after = runner_->tasks();
     for (size_t t = 0; t < before.size(); ++t)
-      task_[t].push_back((m.tasks[t].seconds - before[t]) / steps);
-    contacts_ += m.contact_after.touching - touched;
-    grown_ += m.state.cracks.points() - points;
+      task_[t].push_back((after[t].seconds - before[t].seconds) / steps);
+    contacts_ += runner_->contacts() - touched;
+    grown_ += runner_->crack_points() - points;
     steps_ += steps;
   }
 
   Result result() {
-    Simulation& m = runner_.simulation();
-    tally(m.space, m.plan, m.state);
+    const Standing now = runner_->standing();
     Result r;
-    r.name = runner_.entrant().name;
-    r.without_cracks = runner_.entrant().without_cracks;
-    r.threads = m.space.threads();
-    r.particles = runner_.particles();
+    r.name = runner_->entrant().name;
+    r.without_cracks = runner_->entrant().without_cracks;
+    r.threads = runner_->threads();
+    r.particles = runner_->particles();
     r.steps = steps_;
     r.seconds = seconds_;
+    const std::vector<TaskRecord> tasks = runner_->tasks();
     for (size_t t = 0; t < task_.size(); ++t)
-      r.tasks.push_back(
-          {m.tasks[t].label, m.tasks[t].effect, 1e9 * median(task_[t]) / static_cast<double>(r.particles)});
-    for (const ArrayReport& a : list_arrays(m.state))
-      (a.name.rfind("particles", 0) == 0 ? r.particle_bytes : r.other_bytes) += a.bytes;
+      r.tasks.push_back({tasks[t].label, tasks[t].effect, 1e9 * median(task_[t]) / static_cast<double>(r.particles)});
+    r.particle_bytes = now.particle_bytes;
+    r.other_bytes = now.other_bytes;
     r.contacts = contacts_;
     r.grown = grown_;
-    r.momentum_error = m.state.ledger.momentum.error();
-    r.energy_error = m.state.ledger.energy.relative_error();
+    r.momentum_error = now.momentum_error;
+    r.energy_error = now.energy_error;
     return r;
   }
 
  private:
-  Runner runner_;
+  std::unique_ptr<Runner> runner_;
   std::vector<double> seconds_;
   std::vector<std::vector<double>> task_;  ///< [tasks][turns] seconds per step
   long contacts_ = 0, grown_ = 0, steps_ = 0;

@@ -32,7 +32,8 @@ std::vector<Entrant> methods() {
                      s.stress_update = StressUpdate::musl;
                    }),
           swirling("bspline", cells, [](Scene& s) { s.shape = ShapeFunction::bspline; }),
-          swirling("atomic", cells, [](Scene& s) { s.scatter = ScatterKind::atomic; })};
+          swirling("atomic", cells, [](Scene& s) { s.scatter = ScatterKind::atomic; }),
+          swirling("float", cells, [](Scene& s) { s.precision = Precision::as_float; })};
 }
 
 /// A plate without and with its cracks.
@@ -64,7 +65,7 @@ std::vector<Group> throughput_groups() {
        [] { return std::vector{swirling("block", 200)}; }},
       {"large", "the same with 1,440,000 particles, beyond the caches", 10, 50, 3,
        [] { return std::vector{swirling("large", 600)}; }},
-      {"methods", "stress updates, transfers, shape functions and scatter on the block", 20, 50, 5, methods},
+      {"methods", "stress updates, transfers, shape functions, scatter and precision on the block", 20, 50, 5, methods},
       {"sent", "plate with two crossing cracks (H and V), 80,000 particles, frictionless contact", 60, 10, 55,
        [] { return beside_plain(sent_plate(cell)); }},
       {"growing", "plate with ten growing cracks, 65,536 particles, J and K at every tip", 60, 10, 55,
