@@ -34,7 +34,8 @@ void launch(const Space& space, long n, const F& f) {
       break;
     case Kind::stdpar:
       // par, not par_unseq: kernels may use atomics
-      std::for_each(std::execution::par, Counting{0}, Counting{n}, [&](long i) { run_task(f, i); });
+      space.arena().execute(
+          [&] { std::for_each(std::execution::par, Counting{0}, Counting{n}, [&](long i) { run_task(f, i); }); });
       break;
   }
 }

@@ -1,7 +1,6 @@
 #include "core/exec/space.hpp"
 
 #include <omp.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 
@@ -9,11 +8,7 @@ namespace riven::exec {
 
 Space::Space(Kind kind, int threads) : kind_(kind), threads_(kind == Kind::serial ? 1 : std::max(1, threads)) {
   if (kind_ == Kind::stdpar)
-    limit_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
-}
-
-Space::~Space() {
-  delete static_cast<tbb::global_control*>(limit_);
+    arena_ = std::make_unique<tbb::task_arena>(threads_);
 }
 
 const char* name(Kind kind) {

@@ -1,5 +1,8 @@
 // Execution spaces: where a kernel runs. Chosen at run time, one program holds them all.
 #pragma once
+#include <tbb/task_arena.h>
+
+#include <memory>
 #include <string>
 
 #include "core/exec/timers.hpp"
@@ -12,18 +15,19 @@ enum class Kind { serial, openmp, stdpar };
 class Space {
  public:
   explicit Space(Kind kind = Kind::serial, int threads = 1);
-  ~Space();
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
 
   Kind kind() const { return kind_; }
   int threads() const { return threads_; }
   Timers& timers() const { return timers_; }
+  /// TBB's threads of this space; only with StdPar.
+  tbb::task_arena& arena() const { return *arena_; }
 
  private:
   Kind kind_;
   int threads_;
-  void* limit_ = nullptr;  ///< keeps TBB's thread limit alive (StdPar)
+  std::unique_ptr<tbb::task_arena> arena_;
   mutable Timers timers_;
 };
 
