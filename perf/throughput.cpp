@@ -17,7 +17,7 @@ namespace {
 class Turns {
  public:
   Turns(const Entrant& entrant, int threads)
-      : runner_(make_runner(entrant, exec::Kind::openmp, threads)), task_(runner_->tasks().size()) {}
+      : runner_(make_runner(entrant, entrant.scene.exec, threads)), task_(runner_->tasks().size()) {}
 
   void warm_up(int steps) { runner_->run(steps); }
   void take_turn(int steps) {
