@@ -45,23 +45,16 @@ class Array {
 
   /// New size; the items that fit are kept, new ones are zero.
   void resize(long n) {
-    if (n > capacity_ || !data_) {
-      const long cap = n > capacity_ + capacity_ / 2 ? n : capacity_ + capacity_ / 2;
-      const size_t bytes = (static_cast<size_t>(cap + padding) * sizeof(T) + 63) / 64 * 64;
-      T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes));
-      if (!fresh)
-        throw std::bad_alloc();
-      const size_t keep = static_cast<size_t>(size_) * sizeof(T);
-      if (size_)
-        std::memcpy(static_cast<void*>(fresh), data_, keep);
-      std::memset(reinterpret_cast<char*>(fresh) + keep, 0, bytes - keep);
-      std::free(data_);
-      data_ = fresh;
-      capacity_ = cap;
-    } else if (n > size_) {
+    if (n > capacity_ || !data_)
+      move_to_room_for(n > capacity_ + capacity_ / 2 ? n : capacity_ + capacity_ / 2);
+    else if (n > size_)
       std::memset(static_cast<void*>(data_ + size_), 0, static_cast<size_t>(n - size_) * sizeof(T));
-    }
     size_ = n;
+  }
+  /// Room for n items and no more, where there is not as much: for large arrays that grow by little.
+  void reserve(long n) {
+    if (n > capacity_)
+      move_to_room_for(n);
   }
   void clear() { resize(0); }
   void zero() {
@@ -75,6 +68,7 @@ class Array {
   }
 
   long size() const { return size_; }
+  long capacity() const { return capacity_; }
   bool empty() const { return size_ == 0; }
   long bytes() const { return data_ ? (capacity_ + padding) * static_cast<long>(sizeof(T)) : 0; }
   T* data() { return data_; }
@@ -89,6 +83,21 @@ class Array {
   View<const T> view() const { return {data_, size_}; }
 
  private:
+  /// The items that there are stay, what is behind them is zero.
+  void move_to_room_for(long items) {
+    const size_t bytes = (static_cast<size_t>(items + padding) * sizeof(T) + 63) / 64 * 64;
+    T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes));
+    if (!fresh)
+      throw std::bad_alloc();
+    const size_t keep = static_cast<size_t>(size_) * sizeof(T);
+    if (size_)
+      std::memcpy(static_cast<void*>(fresh), data_, keep);
+    std::memset(reinterpret_cast<char*>(fresh) + keep, 0, bytes - keep);
+    std::free(data_);
+    data_ = fresh;
+    capacity_ = items;
+  }
+
   T* data_ = nullptr;
   long size_ = 0;
   long capacity_ = 0;

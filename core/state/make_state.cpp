@@ -139,13 +139,20 @@ void size_grid(const Plan& plan, State<Real, 2>& s) {
   const long slots = long{s.grid.lattice.nodes()} + s.fields.extra_slots;
   if (slots == s.grid.mass.size())
     return;
-  s.grid.mass.resize(slots);
-  s.grid.q.resize(4 * slots);
+  // cracks that grow ask for a few more slots at a time, beside many plain ones
+  const long room = slots + s.fields.extra_slots / 4;
+  const auto resize = [&](exec::Array<Real>& a, long width) {
+    if (width * slots > a.capacity())
+      a.reserve(width * room);
+    a.resize(width * slots);
+  };
+  resize(s.grid.mass, 1);
+  resize(s.grid.q, 4);
   if (plan.extrapolate_again())
-    s.grid.again.resize(4 * slots);
+    resize(s.grid.again, 4);
   if (plan.higher_order() && plan.order > 1)
     for (auto* a : {&s.grid.high, &s.grid.term, &s.grid.next})
-      a->resize(4 * slots);
+      resize(*a, 4);
 }
 
 template <class Real>
