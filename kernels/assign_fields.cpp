@@ -69,11 +69,12 @@ bool hold_cracks(CrackFields& fields, long f) {
   return changed;
 }
 
-/// f(particle, record) for the records of each particle of a tile that weigh.
+/// f(particle, record) for the records of each particle of a marked tile that weigh.
 template <class F>
-void each_record(const CrackFields& fields, long first, long last, const F& f) {
+void each_record(const CrackFields& fields, long marked, long first, long last, const F& f) {
+  const int known = fields.tiles[marked].known;
   for (long p = first; p < last; ++p) {
-    const CrossingMemory& m = fields.memory[p];
+    const CrossingMemory& m = fields.memory[p + known];
     for (int r = m.first; r < m.first + m.count; ++r)
       if (fields.records[r].weighs)
         f(p, fields.records[r]);
@@ -87,7 +88,7 @@ void set_fields(CrackFields& fields, long marked, long first, long last) {
   std::fill(fields.fields.begin() + first, fields.fields.begin() + last, 0u);
   std::fill(crossing, crossing + (last - first + exec::lanes - 1) / exec::lanes, std::uint16_t{0});
   tile.warnings[0] = tile.warnings[1] = tile.crossing = 0;
-  each_record(fields, first, last, [&](long p, const CrossingRecord& r) {
+  each_record(fields, marked, first, last, [&](long p, const CrossingRecord& r) {
     const std::uint8_t verdict = fields.verdict[r.entry];
     if (verdict < other_side) {
       const long lane = p - first;
@@ -126,7 +127,7 @@ void set_slots(const Lattice& lattice, CrackFields& fields, long marked, long fi
     const std::uint32_t word = fields.fields[p];
     if (word == 0)
       continue;
-    const CrossingRecord& any = fields.records[fields.memory[p].first];
+    const CrossingRecord& any = fields.records[fields.memory[p + tile.known].first];
     const int corner = fields.nodes[any.node].node - any.neighbour / N * lattice.nx - any.neighbour % N;
     for (int n = 0; n < N * N; ++n) {
       const int node = corner + n / N * lattice.nx + n % N, field = CrackFields::field_of(word, n);
@@ -144,7 +145,7 @@ Vec2 first_warning(const CrackFields& fields, const Particles<Real, 2>& particle
     if (fields.tiles[m].warnings[kind] == 0)
       continue;
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
-    each_record(fields, start[0], start[1], [&](long p, const CrossingRecord& r) {
+    each_record(fields, m, start[0], start[1], [&](long p, const CrossingRecord& r) {
       const std::pair<int, int> here{particles.id[p], r.neighbour};
       if (fields.verdict[r.entry] != (kind == 0 ? other_side : third_crack) || !(here < first))
         return;

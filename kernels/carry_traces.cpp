@@ -6,6 +6,7 @@
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/fracture/crack_path.hpp"
+#include "kernels/known_particles.hpp"
 #include "kernels/turned.hpp"
 
 namespace riven {
@@ -94,31 +95,21 @@ class Carrier {
   void tiles() {
     for (const int tile : was_.marked_tiles)
       if (!f_.tile_marked[tile])
-        forget(tile);
-    const long marked = f_.marked_tiles.size(), blocks = f_.memory.size() / exec::lanes + marked + 1;
+        std::fill(f_.fields.begin() + tiles_.start[tile], f_.fields.begin() + tiles_.start[tile + 1], 0u);
+    const long marked = f_.marked_tiles.size(), blocks = f_.fields.size() / exec::lanes + marked + 1;
     f_.tiles.resize(marked);
     for (long m = 0; m < marked; ++m) {
       const int tile = f_.marked_tiles[m], former = was_.tile_marked[tile];
-      f_.tiles[m] = former ? was_.tiles[former - 1] : TileTrace{};
-      f_.tiles[m].limit = 0;
-      f_.tiles[m].changed = 1;
+      TileTrace& t = f_.tiles[m] = former ? was_.tiles[former - 1] : TileTrace{};
+      t.limit = 0;
+      t.changed = 1;
       if (!former)
-        forget(tile);
+        t.known = add_known(tiles_.start[tile], tiles_.start[tile + 1], f_);
     }
     f_.block_limit.resize(blocks);
     f_.block_limit.zero();
     f_.crossing.resize(blocks);
     f_.block_slots.resize(blocks);
-  }
-
-  void forget(int tile) {
-    for (int p = tiles_.start[tile]; p < tiles_.start[tile + 1]; ++p)
-      forget_particle(p);
-  }
-  void forget_particle(long p) {
-    f_.memory[p] = CrossingMemory{};
-    f_.limit[p] = 0;
-    f_.fields[p] = 0;
   }
 
   /// A particle may have come from the cell next to that of its trace, if that one saw nothing around it.
@@ -169,11 +160,14 @@ class Carrier {
   /// Records of a tile's particles in the new numbers, and their counts.
   void records(long marked) {
     const int* start = tiles_.start.data() + f_.marked_tiles[marked];
+    const int known = f_.tiles[marked].known;
     for (long p = start[0]; p < start[1]; ++p) {
-      CrossingMemory& m = f_.memory[p];
+      CrossingMemory& m = f_.memory[p + known];
       CrossingRecord* const r = f_.records.data() + m.first;
       if (!std::all_of(r, r + m.count, [&](CrossingRecord& one) { return renumber(one); })) {
-        forget_particle(p);
+        m = CrossingMemory{};
+        f_.limit[p + known] = 0;
+        f_.fields[p] = 0;
         continue;
       }
       for (int i = 0; i < m.count; ++i)

@@ -7,6 +7,7 @@
 #include "core/exec/parallel.hpp"
 #include "core/fracture/crack_path.hpp"
 #include "kernels/carry_traces.hpp"
+#include "kernels/known_particles.hpp"
 #include "kernels/tracer.hpp"
 #include "kernels/turned.hpp"
 
@@ -18,9 +19,7 @@ namespace {
 constexpr long tiles_of_task = 8;
 
 /// Forgets all crossings, after a sort or when room ran out.
-void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
-  fields.memory.resize(particles);
-  fields.limit.resize(particles);
+void begin_anew(const Tiles& tiles, long particles, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   fields.turned.resize(lattice.nodes());
   fields.block_limit.resize(particles / exec::lanes + fields.marked_tiles.size() + 1);
   fields.tiles.resize(fields.marked_tiles.size());
@@ -31,12 +30,20 @@ void begin_anew(long particles, const Lattice& lattice, const Cracks& cracks, Cr
   fields.fields.resize(particles);
   fields.crossing.resize(fields.block_limit.size());
   fields.block_slots.resize(fields.block_limit.size());
-  fields.memory.zero();
-  fields.limit.zero();
+  long known = 0;
+  for (const int tile : fields.marked_tiles)
+    known += tiles.start[tile + 1] - tiles.start[tile];
+  fields.memory.clear();
+  fields.memory.reserve(known + known / 8);
+  fields.limit.clear();
+  fields.limit.reserve(known + known / 8);
   fields.block_limit.zero();
   fields.tiles.zero();
-  for (TileTrace& t : fields.tiles)
-    t.changed = 1;
+  for (long m = 0; m < fields.tiles.size(); ++m) {
+    const int* start = tiles.start.data() + fields.marked_tiles[m];
+    fields.tiles[m].known = add_known(start[0], start[1], fields);
+    fields.tiles[m].changed = 1;
+  }
   fields.fields.zero();
   fields.crossing.zero();
   fields.tally.zero();
@@ -117,10 +124,10 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
                      const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
                      const double* tile_move, CrackFields& fields) {
   const exec::Stopwatch watch(space.timers(), "trace crossings");
-  const bool afresh = fields.order != particles.tiles.order || fields.memory.size() != particles.count();
+  const bool afresh = fields.order != particles.tiles.order || fields.fields.size() != particles.count();
   ++fields.traces;
   if (afresh)
-    begin_anew(particles.count(), lattice, cracks, fields);
+    begin_anew(particles.tiles, particles.count(), lattice, cracks, fields);
   else if (fields.relisted)
     carry_traces(space, particles.tiles, lattice, cracks, fields);
   fields.order = particles.tiles.order;
@@ -143,7 +150,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
     if (fields.used <= fields.records.size())
       return;
     fields.records.resize(fields.used + fields.used / 2);
-    begin_anew(particles.count(), lattice, cracks, fields);
+    begin_anew(particles.tiles, particles.count(), lattice, cracks, fields);
   }
 }
 

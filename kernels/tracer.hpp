@@ -37,13 +37,12 @@ class Tracer {
 
   /// All particles of marked tiles [first, last) that may have come to cross something else.
   void tiles(long first, long last) {
-    const double* const limit = fields_.limit.data();
     for (long marked = first; marked < last; ++marked) {
       take(marked);
       follow(marked, moves_known_ ? in_.tile_move[fields_.marked_tiles[marked]] : 0);
       each_due_block([&](long begin, long end, double&) {
         for (long p = begin; p < end; p += 64 / sizeof(double))
-          exec::prefetch(limit + p);
+          exec::prefetch(&fields_.limit[p + tile_->known]);
       });
     }
     for (long marked = first; marked < last; ++marked) {
@@ -53,7 +52,10 @@ class Tracer {
     keep_all(0);
     for (long marked = first; marked < last; ++marked) {
       take(marked);
-      each_due_block([&](long begin, long end, double& least) { least = least_of(limit + begin, limit + end); });
+      each_due_block([&](long begin, long end, double& least) {
+        const double* const limit = fields_.limit.data();
+        least = least_of(limit + (begin + tile_->known), limit + (end + tile_->known));
+      });
       if (due())
         tile_->limit = least_of(block_limit_, block_limit_ + blocks());
       tile_->turned = 0;
@@ -106,12 +108,12 @@ class Tracer {
   /// some particles ahead.
   void look(long first, long last) {
     for (long p = first; p < last; ++p) {
-      if (!all_due() && tile_->path < fields_.limit[p])
+      if (!all_due() && tile_->path < fields_.limit[p + tile_->known])
         continue;
       if (noted_ == most_noted)
         keep_all(ahead);
-      exec::prefetch(&fields_.memory[p]);
-      exec::prefetch(&fields_.memory[p] + 1);
+      exec::prefetch(&fields_.memory[p + tile_->known]);
+      exec::prefetch(&fields_.memory[p + tile_->known] + 1);
       exec::prefetch(&in_.particles.x[0][p]);
       exec::prefetch(&in_.particles.x[1][p]);
       note_[noted_++] = {p, tile_};
@@ -124,7 +126,7 @@ class Tracer {
     TileTrace* const in_hand = tile_;
     for (int i = 0; i < end; ++i) {
       tile_ = note_[i].tile;
-      fields_.limit[note_[i].particle] = keep(note_[i].particle);
+      fields_.limit[note_[i].particle + tile_->known] = keep(note_[i].particle);
     }
     tile_ = in_hand;
     std::copy(note_ + end, note_ + noted_, note_);
@@ -133,7 +135,7 @@ class Tracer {
 
   /// Brings the records of one particle up to date; returns how long they will be.
   double keep(long p) {
-    CrossingMemory& m = fields_.memory[p];
+    CrossingMemory& m = fields_.memory[p + tile_->known];
     const Vec2 x{in_.particles.x[0][p], in_.particles.x[1][p]};
     double used = norm(x - m.x) + (tile_->travel - m.travel);
     const bool turned = tile_->turned && m.cell >= 0 && fields_.turned[m.cell] == fields_.traces;

@@ -75,6 +75,7 @@ struct TileTrace {
   int crossing = 0;   ///< particles that see a node across a crack
   int room = 0;       ///< how many of them CrackFields::slots has room for, from `slots` on
   int slots = 0;
+  int known = 0;  ///< what is known of particle p of the tile stands at p + known
   int warnings[2] = {0, 0};
 };
 
@@ -131,8 +132,9 @@ struct CrackFields : CrackLists {
   exec::Array<int> turned;         ///< [nodes] the last trace before which a node of this cell changed sides
   exec::Array<CrossingRecord> records;
   long used = 0;                       ///< records given away
-  exec::Array<CrossingMemory> memory;  ///< [particles]
-  exec::Array<double> limit;           ///< [particles] as TileTrace::limit
+  exec::Array<CrossingMemory> memory;  ///< [particles of marked tiles] see TileTrace::known; of tiles, too, that have
+                                       ///< been marked since the last sort
+  exec::Array<double> limit;           ///< [the same] as TileTrace::limit
   exec::Array<double> block_limit;     ///< [blocks of particles] the least of these; see block_of
   long order = -1;                     ///< Tiles::order of the particles that `memory` is about; -1: nothing is known
   exec::Array<std::uint8_t> recount;   ///< [flagged] 1 where sums have changed

@@ -373,11 +373,12 @@ void check_memory() {
           ASSERT_TRUE(n.crack[k] == m.crack[k] && n.side[k] == m.side[k] && u.now[k] == v.now[k] &&
                       u.first[k] == v.first[k]);
       }
-      for (long i = 0; i < p.count(); ++i)
-        if (f.memory[i].known && !(f.memory[i].x == Vec2{p.x[0][i], p.x[1][i]})) {
+      crack_scene::each_known(f, p.tiles, [&](int i, const CrossingMemory& m) {
+        if (m.known && !(m.x == Vec2{p.x[0][i], p.x[1][i]})) {
           ++remembered;
-          crossing += f.memory[i].count > 0;
+          crossing += m.count > 0;
         }
+      });
       std::vector<Vec2> moves(x.size());
       for (Vec2& move : moves)
         move = {any(random), any(random)};
@@ -428,6 +429,35 @@ TEST(CrackFields, AreClearedWhenParticlesMoveAway) {
   EXPECT_EQ(words_by_id(p, f)[0], 0u);
   EXPECT_NE(words_by_id(p, f)[1], 0u);
   EXPECT_EQ(words_by_id(p, f)[2], 0u);
+}
+
+TEST(CrackFields, AreClearedWhenACrackJumpsAway) {
+  const Lattice l = unit_cells(32, 32);
+  const exec::Space serial;
+  Cracks cracks = crack_scene::cracks_of({{{2, 3.3}, {6, 3.4}}, {{18, 4}, {22, 4.2}}});
+  const std::vector<Vec2> x{{3.3, 3.6}, {3.3, 20.6}, {20.2, 4.3}, {4.2, 20.1}};
+  const auto p = sorted_particles<UGimp>(l, x, in_order(x.size()));
+  exec::Array<double> at_rest(l.tiles_x() * l.tiles_y());
+  CrackFields f;
+  run<UGimp>(serial, l, p, cracks, f, at_rest.data());
+  const std::vector<std::uint32_t> before = words_by_id(p, f);
+  EXPECT_NE(before[0], 0u);
+  EXPECT_EQ(before[1], 0u);
+  EXPECT_NE(before[2], 0u);
+  EXPECT_EQ(before[3], 0u);
+  const auto jump = [&](double dy) {
+    for (int k = cracks.start[0]; k < cracks.start[1]; ++k)
+      cracks.plane[k].y += dy;
+    run<UGimp>(serial, l, p, cracks, f, at_rest.data());
+  };
+  jump(17);  // into tiles that no crack was in
+  const std::vector<std::uint32_t> after = words_by_id(p, f);
+  EXPECT_EQ(after[0], 0u);
+  EXPECT_NE(after[1], 0u);
+  EXPECT_EQ(after[2], before[2]);
+  EXPECT_NE(after[3], 0u);
+  jump(-17);
+  EXPECT_EQ(words_by_id(p, f), before);
 }
 
 TEST(CrackFields, OfACrackOnAGridLineSplitTheNodesOnIt) {

@@ -38,6 +38,16 @@ inline Cracks cracks_of(const std::vector<std::vector<Vec2>>& lines, double reso
   return make_cracks(scene, resolution);
 }
 
+/// use(particle, memory) for what is known of the particles of marked tiles.
+template <class Use>
+void each_known(const CrackFields& fields, const Tiles& tiles, const Use& use) {
+  for (long m = 0; m < fields.marked_tiles.size(); ++m) {
+    const int* start = tiles.start.data() + fields.marked_tiles[m];
+    for (int p = start[0]; p < start[1]; ++p)
+      use(p, fields.memory[p + fields.tiles[m].known]);
+  }
+}
+
 /// Particles with the given ids, laid down in that order and then sorted.
 template <class Shape>
 Particles<double, 2> sorted_particles(const Lattice& l, const std::vector<Vec2>& x, const std::vector<int>& ids) {

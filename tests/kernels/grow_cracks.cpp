@@ -14,6 +14,7 @@
 #include "kernels/assign_fields.hpp"
 #include "kernels/hash_cracks.hpp"
 #include "kernels/simulation.hpp"
+#include "tests/kernels/crack_scene.hpp"
 #include "tests/spaces.hpp"
 
 namespace riven {
@@ -249,10 +250,12 @@ TEST(GrowCracks, LeaveOthersUntraced) {
     determine_fields<UGimp>(Driven::serial(), s.particles, s.domains.data(), s.grid.lattice, s.cracks, kept,
                             s.watch.tile_move.data());
     long traced = 0, known = 0;
-    for (long i = 0; i < s.particles.count(); ++i) {
-      known += kept.memory[i].known;
-      traced += kept.memory[i].known && !(norm(kept.memory[i].x - s.fields.memory[i].x) == 0);
-    }
+    std::map<int, Vec2> place;
+    crack_scene::each_known(s.fields, s.particles.tiles, [&](int p, const CrossingMemory& m) { place[p] = m.x; });
+    crack_scene::each_known(kept, s.particles.tiles, [&](int p, const CrossingMemory& m) {
+      known += m.known;
+      traced += m.known && !(place.count(p) != 0 && norm(m.x - place[p]) == 0);
+    });
     EXPECT_GT(traced, 0);
     few += traced < known / 3;
   }
