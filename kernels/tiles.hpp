@@ -2,7 +2,7 @@
 //
 //   ordered  tiles of one colour at a time, straight into the grid: no two tiles of a colour share a node, and every
 //            node is summed in the same order on any number of threads
-//   atomic   all tiles at once, each into a buffer of its own, flushed with atomic additions where tiles overlap
+//   atomic   all tiles at once, each into a buffer of its own, added to the grid under locks where tiles overlap
 //
 // A tile of 8 x 8 cells writes to the nodes -2 .. 9 around its corner (tile_reads.hpp), and shares all but the nodes
 // 2 .. 5 with its neighbours.
@@ -16,6 +16,7 @@
 #include "core/state/crack_fields.hpp"
 #include "core/state/particles.hpp"
 #include "kernels/block.hpp"
+#include "kernels/square_locks.hpp"
 #include "kernels/tile_reads.hpp"
 
 namespace riven {
@@ -170,34 +171,29 @@ void each_tile(const exec::Space& space, const char* label, const TileRun<Real>&
 
 namespace detail {
 
+/// Adds a tile's buffer to the grid, square by square; those that other tiles reach, too, with their locks held.
 template <bool Mass, class Real>
 void flush(const Lattice& lattice, int corner_x, int corner_y, const Real* mass, const Real* q, Real* grid_mass,
-           Real* grid_q, bool shared) {
-  for (int j = 0; j < tile_reach; ++j) {
-    const int y = corner_y + j;
-    if (y < 0 || y >= lattice.ny)
+           Real* grid_q, SquareLocks* locks) {
+  constexpr int edge = SquareLocks::edge, squares = tile_reach / edge;
+  static_assert(tile_reach % edge == 0 && Lattice::tile % edge == 0 && edge == 2 * tile_margin);
+  for (int square = 0; square < squares * squares; ++square) {
+    const int across = square % squares, up = square / squares;
+    const int left = std::max(across * edge, -corner_x), right = std::min((across + 1) * edge, lattice.nx - corner_x);
+    const int lower = std::max(up * edge, -corner_y), upper = std::min((up + 1) * edge, lattice.ny - corner_y);
+    if (left >= right || lower >= upper)
       continue;
-    for (int i = 0; i < tile_reach; ++i) {
-      const int x = corner_x + i, n = j * tile_reach + i;
-      if (x < 0 || x >= lattice.nx)
-        continue;
-      const Quad<Real> v = quad_at<Real>(q + 4L * n);
-      if constexpr (Mass) {
-        if (mass[n] == Real(0))
-          continue;
-      } else {
-        if (v[0] == Real(0) && v[1] == Real(0) && v[2] == Real(0) && v[3] == Real(0))
-          continue;
+    const bool own = across > 0 && across < squares - 1 && up > 0 && up < squares - 1;
+    std::optional<SquareLocks::Hold> hold;
+    if (locks && !own)
+      hold.emplace(*locks, corner_x + across * edge, corner_y + up * edge);
+    for (int j = lower; j < upper; ++j)
+      for (int i = left; i < right; ++i) {
+        const long n = j * tile_reach + i, g = static_cast<long>(corner_y + j) * lattice.nx + corner_x + i;
+        quad_at<Real>(grid_q + 4 * g) += quad_at<Real>(q + 4 * n);
+        if constexpr (Mass)
+          grid_mass[g] += mass[n];
       }
-      const long g = static_cast<long>(y) * lattice.nx + x;
-      const bool inner = i >= 2 * tile_margin && i < Lattice::tile && j >= 2 * tile_margin && j < Lattice::tile;
-      const bool atomic = shared && !inner;
-      for (int c = 0; c < 4; ++c)
-        if (v[c] != Real(0))
-          add(grid_q[4 * g + c], v[c], atomic);
-      if constexpr (Mass)
-        add(grid_mass[g], mass[n], atomic);
-    }
   }
 }
 
@@ -220,7 +216,10 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     }
     return;
   }
-  const bool shared = space.threads() > 1;
+  std::optional<SquareLocks> locks;
+  if (space.threads() > 1)
+    locks.emplace(lattice);
+  SquareLocks* const held = locks ? &*locks : nullptr;
   const int count = static_cast<int>(run.tiles.by_colour.size());
   const detail::TileList<Real> tiles(run, 0, count, space.threads());
   exec::launch(space, count, [=](long t) {
@@ -231,7 +230,7 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     alignas(64) Real q[4 * tile_reach * tile_reach] = {};
     const NodeTarget<Real> own{mass, q, tile_reach, corner_x, corner_y};
     tiles.run(t, watch, body, own);
-    detail::flush<Mass>(lattice, corner_x, corner_y, mass, q, grid_mass, grid_q, shared);
+    detail::flush<Mass>(lattice, corner_x, corner_y, mass, q, grid_mass, grid_q, held);
   });
 }
 
