@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <tuple>
 
 #include "core/exec/parallel.hpp"
@@ -29,17 +30,17 @@ RIVEN_INLINE int key_of(const Lattice& l, double X, double Y) {
   return inside ? l.sorted_cell(i, j) : -1;
 }
 
-/// Tiles that hold particles, those of one colour together: colour = (x parity) + 2 (y parity).
-void colour(const Lattice& l, Tiles& t) {
+/// Lists the tiles that hold particles, and those of one colour together: colour = (x parity) + 2 (y parity).
+void list_tiles(const Lattice& l, Tiles& t) {
+  t.filled.clear();
+  for (int tile = 0; tile < l.tiles_x() * l.tiles_y(); ++tile)
+    if (t.start[tile] < t.start[tile + 1])
+      t.filled.push_back(tile);
   t.by_colour.clear();
   for (int c = 0; c < 4; ++c) {
     t.colour_start[c] = static_cast<int>(t.by_colour.size());
-    for (int y = c / 2; y < l.tiles_y(); y += 2)
-      for (int x = c % 2; x < l.tiles_x(); x += 2) {
-        const int tile = y * l.tiles_x() + x;
-        if (t.start[tile] < t.start[tile + 1])
-          t.by_colour.push_back(tile);
-      }
+    std::copy_if(t.filled.begin(), t.filled.end(), std::back_inserter(t.by_colour),
+                 [&](int tile) { return tile % l.tiles_x() % 2 + 2 * (tile / l.tiles_x() % 2) == c; });
   }
   t.colour_start[4] = static_cast<int>(t.by_colour.size());
 }
@@ -98,7 +99,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   p.each_array(
       [&](auto& a) { permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), order.data()); });
   ++p.tiles.order;
-  colour(l, p.tiles);
+  list_tiles(l, p.tiles);
   for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite})
     a->resize(tiles);
   s.watch.drift = 0;

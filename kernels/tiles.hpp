@@ -8,7 +8,6 @@
 // 2 .. 5 with its neighbours.
 #pragma once
 #include <algorithm>
-#include <climits>
 #include <optional>
 #include <type_traits>
 
@@ -129,16 +128,16 @@ struct TileList {
   const int* list;
   const int* start;  ///< [tiles + 1] particles
   long count;
-  int ahead;  ///< the tile that a thread is likely to take when it is done with one comes so many later
+  bool asks;  ///< for the tile after the one in hand, which a thread is likely to take next
   Lattice lattice;
   CrossingSlots extra;
   TileReads<Real> reads;
 
-  TileList(const TileRun<Real>& run, int first, int last, int threads)
-      : list(run.tiles.by_colour.data() + first),
+  TileList(const TileRun<Real>& run, const std::vector<int>& tiles, int first, int last)
+      : list(tiles.data() + first),
         start(run.tiles.start.data()),
         count(last - first),
-        ahead(asking_pays<Real>(start[run.tiles.start.size() - 1]) ? threads : INT_MAX),
+        asks(asking_pays<Real>(start[run.tiles.start.size() - 1])),
         lattice(run.lattice),
         extra(run.extra),
         reads(run.reads) {}
@@ -147,8 +146,8 @@ struct TileList {
   RIVEN_INLINE void run(long t, const Watch& watch, const Body& body, More&... more) const {
     const int tile = list[t];
     std::optional<TileAhead<Real>> later;
-    if (t + ahead < count) {
-      const int next = list[t + ahead];
+    if (asks && t + 1 < count) {
+      const int next = list[t + 1];
       later.emplace(reads, lattice, start[tile], start[tile + 1], next, start[next], start[next + 1]);
     }
     typename Watch::Seen seen{};
@@ -164,8 +163,8 @@ struct TileList {
 template <class Real, class Watch, class Body>
 void each_tile(const exec::Space& space, const char* label, const TileRun<Real>& run, const Watch& watch,
                const Body& body) {
-  const int count = static_cast<int>(run.tiles.by_colour.size());
-  const detail::TileList<Real> tiles(run, 0, count, space.threads());
+  const int count = static_cast<int>(run.tiles.filled.size());
+  const detail::TileList<Real> tiles(run, run.tiles.filled, 0, count);
   exec::parallel_tasks(space, label, count, [=](long t) { tiles.run(t, watch, body); });
 }
 
@@ -211,7 +210,7 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
     for (int colour = 0; colour < 4; ++colour) {
       const int* const first = &run.tiles.colour_start[colour];
       const int count = first[1] - first[0];
-      const detail::TileList<Real> tiles(run, first[0], first[1], space.threads());
+      const detail::TileList<Real> tiles(run, run.tiles.by_colour, first[0], first[1]);
       exec::launch(space, count, [=](long t) { tiles.run(t, watch, body, whole); });
     }
     return;
@@ -220,8 +219,8 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
   if (space.threads() > 1)
     locks.emplace(lattice);
   SquareLocks* const held = locks ? &*locks : nullptr;
-  const int count = static_cast<int>(run.tiles.by_colour.size());
-  const detail::TileList<Real> tiles(run, 0, count, space.threads());
+  const int count = static_cast<int>(run.tiles.filled.size());
+  const detail::TileList<Real> tiles(run, run.tiles.filled, 0, count);
   exec::launch(space, count, [=](long t) {
     const int tile = tiles.list[t];
     const int corner_x = tile % lattice.tiles_x() * Lattice::tile - tile_margin;

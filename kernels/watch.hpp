@@ -73,7 +73,7 @@ template <class Real>
 void watch_moves(State<Real, 2>& s) {
   StepWatch& w = s.watch;
   double move = 0, sum = 0;
-  for (int t : s.particles.tiles.by_colour) {
+  for (int t : s.particles.tiles.filled) {
     move = std::max(move, w.tile_move[t]);
     sum += w.tile_finite[t];
   }
@@ -85,7 +85,7 @@ void watch_moves(State<Real, 2>& s) {
 template <class Real>
 void watch_J(State<Real, 2>& s) {
   double least = std::numeric_limits<double>::max();
-  for (int t : s.particles.tiles.by_colour) {
+  for (int t : s.particles.tiles.filled) {
     const double J = s.watch.tile_J[t];
     least = least < J || least != least ? least : J;
   }

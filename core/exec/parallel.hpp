@@ -1,6 +1,9 @@
 // parallel_for and parallel_reduce over a runtime-chosen space, Kokkos-style.
 #pragma once
+#include <omp.h>
+
 #include <algorithm>
+#include <atomic>
 #include <execution>
 #include <vector>
 
@@ -18,6 +21,33 @@ RIVEN_ONCE void run_task(const F& f, long i) {
   task(i);
 }
 
+namespace detail {
+
+/// A range of tasks that begins with one thread, and that others help with when they are done with their own.
+struct alignas(64) Share {
+  std::atomic<long> next;
+  long end;
+};
+
+/// Thread t begins with the t-th part of [0, n): in all launches of a step with the same part of the grid and of the
+/// particles, whose lines stay in its cache.
+template <class F>
+void launch_openmp(int threads, long n, const F& f) {
+  std::vector<Share> shares(static_cast<size_t>(threads));
+  for (int t = 0; t < threads; ++t) {
+    shares[static_cast<size_t>(t)].next = n * t / threads;
+    shares[static_cast<size_t>(t)].end = n * (t + 1) / threads;
+  }
+#pragma omp parallel num_threads(threads)
+  for (int k = 0, own = omp_get_thread_num(); k < threads; ++k) {
+    Share& share = shares[static_cast<size_t>((own + k) % threads)];
+    for (long i; (i = share.next.fetch_add(1, std::memory_order_relaxed)) < share.end;)
+      run_task(f, i);
+  }
+}
+
+}  // namespace detail
+
 /// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
 template <class F>
 void launch(const Space& space, long n, const F& f) {
@@ -27,11 +57,7 @@ void launch(const Space& space, long n, const F& f) {
       for (long i = 0; i < n; ++i)
         run_task(f, i);
       break;
-    case Kind::openmp:
-#pragma omp parallel for schedule(dynamic, 1) num_threads(space.threads())
-      for (long i = 0; i < n; ++i)
-        run_task(f, i);
-      break;
+    case Kind::openmp: detail::launch_openmp(space.threads(), n, f); break;
     case Kind::stdpar:
       // par, not par_unseq: kernels may use atomics
       space.arena().execute(
