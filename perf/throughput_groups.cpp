@@ -71,7 +71,7 @@ std::vector<Group> throughput_groups() {
        methods},
       {"sent", "plate with two crossing cracks (H and V), 80,000 particles, frictionless contact", 60, 10, 55,
        [] { return beside_plain(sent_plate(cell)); }},
-      {"growing", "plate with ten growing cracks, 65,536 particles, J and K at every tip", 60, 10, 55,
+      {"growing", "plate with ten growing cracks, 65,536 particles, J and K at every tip", 60, 5, 20,
        [] { return pair_of(growing_plate(0.396875e-3), ""); }},
       {"many", "plate with 200 cracks, 160,000 particles, frictionless contact", 40, 8, 35,
        [] { return beside_plain(many_plate(edge)); }},
