@@ -22,7 +22,7 @@ class SquareLocks {
   class Hold {
    public:
     Hold(SquareLocks& locks, int x, int y)
-        : flag_(locks.flags_[static_cast<size_t>(number(y) * locks.across_ + number(x))]) {
+        : flag_(locks.flags_[static_cast<size_t>(long{number(y)} * locks.across_ + number(x))]) {
       while (flag_.test_and_set(std::memory_order_acquire))
         std::this_thread::yield();
     }
