@@ -18,6 +18,8 @@ void add_run(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_check(CLI::App& app);
 void add_cases(CLI::App& app);
+void add_study(CLI::App& app);
+void add_advise(CLI::App& app);
 
 /// What every command that reads a scene understands.
 struct SceneOptions {
@@ -26,18 +28,27 @@ struct SceneOptions {
   std::string exec;
   int threads = 0;
 
-  void add_to(CLI::App& command);
+  /// `required`: a command line without a scene is refused.
+  void add_to(CLI::App& command, bool required = true);
   /// The scene in a file, or the shipped scene of that name, with the options applied. Throws Error.
   Scene read() const;
+  /// The scene with the options that are none of its keys.
+  Scene with_choices(Scene scene) const;
 };
+
+/// What --within says, "2%" or "0.02". Throws Error (bad_input).
+double parse_tolerance(const std::string& text);
 
 /// Threads that the scene asks for, or as many as there are cores.
 int threads_of(const Scene& scene);
 
-/// Folder of the shipped scenes.
-std::filesystem::path scene_folder();
-/// File of a shipped scene, if there is one of that name.
-std::optional<std::filesystem::path> shipped_scene(const std::string& name);
-std::vector<std::string> shipped_names();
+/// What is shipped: scenes, and studies of them.
+enum class Shipped { scene, study };
+/// The shipped file of that name, if there is one.
+std::optional<std::filesystem::path> shipped_file(Shipped kind, const std::string& name);
+std::vector<std::string> shipped_names(Shipped kind);
+/// The file of that path or, where there is none, the shipped one of that name. Throws Error (bad_input) with the
+/// nearest name.
+std::string find_file(Shipped kind, const std::string& name);
 
 }  // namespace riven

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -10,6 +11,7 @@
 
 int main(int argc, char** argv) {
   using riven::Exit;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error of writing, with its message and exit code
   CLI::App app{"riven: many explicit cracks in deforming solids, by the material point method"};
   app.require_subcommand(1);
   app.set_version_flag("--version", RIVEN_VERSION);
@@ -17,6 +19,8 @@ int main(int argc, char** argv) {
   riven::add_plan(app);
   riven::add_check(app);
   riven::add_cases(app);
+  riven::add_study(app);
+  riven::add_advise(app);
   try {
     app.parse(argc, argv);
     return static_cast<int>(Exit::done);

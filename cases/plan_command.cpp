@@ -3,12 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "cases/commands.hpp"
+#include "cases/plan_costs.hpp"
+#include "core/plan/explain.hpp"
 #include "core/scene/names.hpp"
 #include "core/state/make_state.hpp"
 #include "io/progress.hpp"
+#include "io/require_memory.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/simulation.hpp"
 #include "kernels/time_step.hpp"
@@ -16,6 +21,21 @@
 namespace riven {
 
 namespace {
+
+using Costs = std::map<std::string, double>;
+
+void print_effects(const Scene& scene, const Plan& plan, const std::optional<Costs>& costs) {
+  const auto cost = [&](const std::string& effect) {
+    const auto found = costs->find(effect);
+    return found == costs->end() ? "" : fmt::format("{:+.0f} %", 100 * found->second);
+  };
+  fmt::print("\neffects ({})\n",
+             costs ? "time of a step with each over that without it, measured over the first steps"
+                   : "--costs: what each costs, or would; what it does to the answer: riven study with [[leave_out]]");
+  for (const EffectNote& e : explain(scene, plan))
+    fmt::print("  {:<24} {:<4} {}{}\n", e.name, e.on ? "on" : "-", costs ? fmt::format("{:>7}  ", cost(e.name)) : "",
+               e.why);
+}
 
 template <class Real>
 void print_arrays(const SimulationOf<Real>& m) {
@@ -31,7 +51,7 @@ void print_arrays(const SimulationOf<Real>& m) {
 }
 
 template <class Real>
-void plan(const Scene& scene) {
+void plan(const Scene& scene, const std::optional<Costs>& costs) {
   const exec::Space space(scene.exec, threads_of(scene));
   SimulationOf<Real> m(scene, space);
   const Lattice& l = m.state.grid.lattice;
@@ -46,7 +66,7 @@ void plan(const Scene& scene) {
   fmt::print("time step   {} at first, limited by {}\n", format_time(m.state.clock.dt), m.state.clock.limiter);
   fmt::print("steps       about {:.0f} to {}\n", std::ceil(scene.end_time / m.state.clock.dt),
              format_time(scene.end_time));
-  fmt::print("effects     {}\n", fmt::join(m.plan.effects(), ", "));
+  print_effects(scene, m.plan, costs);
   fmt::print("\ntasks of a step\n");
   for (const TaskOf<Real>& t : m.tasks)
     fmt::print("  {:<36} {}\n", t.label, t.effect.empty() ? "" : "[" + t.effect + "]");
@@ -61,10 +81,14 @@ void plan(const Scene& scene) {
 void add_plan(CLI::App& app) {
   auto options = std::make_shared<SceneOptions>();
   CLI::App* command = app.add_subcommand("plan", "shows the effects, tasks, arrays and steps that a scene asks for");
+  auto ask_costs = std::make_shared<bool>(false);
   options->add_to(*command);
-  command->callback([options] {
+  command->add_flag("--costs", *ask_costs, "run some steps with and without each effect, and show what it costs");
+  command->callback([options, ask_costs] {
     const Scene scene = options->read();
-    with_precision(scene.precision, [&](auto real) { plan<typename decltype(real)::type>(scene); });
+    require_memory(scene);
+    const std::optional<Costs> costs = *ask_costs ? std::optional(measure_costs(*options)) : std::nullopt;
+    with_precision(scene.precision, [&](auto real) { plan<typename decltype(real)::type>(scene, costs); });
   });
 }
 

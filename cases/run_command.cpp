@@ -4,10 +4,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cases/commands.hpp"
+#include "core/error.hpp"
 #include "core/scene/names.hpp"
+#include "io/check_scene.hpp"
+#include "io/checkpoint_store.hpp"
+#include "io/compare_scenes.hpp"
+#include "io/duration.hpp"
 #include "io/progress.hpp"
+#include "io/require_memory.hpp"
 #include "io/run_scene.hpp"
 #include "kernels/dispatch.hpp"
 
@@ -33,6 +40,9 @@ void print_tasks(const Summary& s) {
   fmt::print("\n{:<38} {:>10} {:>10} {:>7}\n", "task", "seconds", "calls", "share");
   for (const Summary::Task& t : s.tasks)
     fmt::print("{:<38} {:>10.3f} {:>10} {:>6.1f}%\n", t.label, t.seconds, t.calls, 100 * t.seconds / total);
+  fmt::print("\n{:<38} {:>10} {:>10} {:>7}\n", "between steps", "seconds", "calls", "of them");
+  for (const Summary::Task& t : s.between_steps)
+    fmt::print("{:<38} {:>10.3f} {:>10} {:>6.1f}%\n", t.label, t.seconds, t.calls, 100 * t.seconds / total);
 }
 
 void print_summary(const Summary& s, const std::filesystem::path& folder) {
@@ -42,6 +52,9 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
              static_cast<double>(s.peak_memory_bytes) / static_cast<double>(s.particles));
   fmt::print("energy error {:.2e} of the largest energy, momentum error {:.1e}, angular momentum error {:.1e}\n",
              s.energy.relative_error, s.momentum_error, s.angular_momentum_error);
+  if (s.energy.transfer != 0)
+    fmt::print("the transfer from grid to particles took {:.3g} % of the largest energy\n",
+               100 * s.energy.transfer / s.energy.largest);
   for (const Summary::Value& p : s.probes)
     fmt::print("{:<24} {:.6g} {}\n", p.name, p.value, p.unit);
   constexpr size_t most = 20;
@@ -53,6 +66,8 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   for (const Summary::Warning& w : s.warnings)
     fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x,
                w.first_place.y);
+  for (const Retry& r : s.retries)
+    fmt::print("went back from step {} to step {}, to go on with a CFL number of {:.4g}\n", r.step, r.back_to, r.cfl);
   fmt::print("results in {}\n", folder.string());
 }
 
@@ -68,24 +83,44 @@ void print_cost_of_j(const SimulationOf<Real>& m) {
 
 struct Options {
   SceneOptions scene;
-  std::string folder;
+  std::string folder, restart, wall_limit;
   bool quiet = false, profile = false;
 };
 
 template <class Real>
-void run(const Options& o, const Scene& scene) {
+void run(const Options& o, const Scene& scene, const CheckpointFile* from) {
+  RunOptions options{.folder = o.folder, .quiet = o.quiet, .restart = from};
+  if (o.folder.empty())
+    options.folder = from ? from->path().parent_path() : std::filesystem::path("results") / scene.name;
+  if (options.folder.empty())
+    options.folder = ".";
+  if (!o.wall_limit.empty())
+    options.wall_limit = parse_duration(o.wall_limit, "--wall-limit");
   const exec::Space space(scene.exec, threads_of(scene));
   SimulationOf<Real> simulation(scene, space);
-  const std::filesystem::path folder = o.folder.empty() ? "results/" + scene.name : o.folder;
   if (!o.quiet)
     print_header(simulation);
-  const Summary s = run_scene(simulation, {folder, o.quiet});
+  const Summary s = run_scene(simulation, options);
   if (o.profile) {
     print_tasks(s);
     print_cost_of_j(simulation);
   }
   if (!o.quiet)
-    print_summary(s, folder);
+    print_summary(s, options.folder);
+}
+
+/// The scene to run, and where it goes on from.
+Scene choose_scene(const SceneOptions& o, const CheckpointFile* from) {
+  if (!from) {
+    if (o.scene.empty())
+      fail({Exit::bad_input, "there is no scene to run", "riven run", "",
+            "a scene file, the name of a shipped scene, or --restart", "riven run --help"});
+    return o.read();
+  }
+  Scene scene = o.scene.empty() ? o.with_choices(from->scene(o.set)) : o.read();
+  require_same_scene(from->scene(), scene);
+  check_scene(scene);
+  return scene;
 }
 
 }  // namespace
@@ -93,13 +128,20 @@ void run(const Options& o, const Scene& scene) {
 void add_run(CLI::App& app) {
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "runs a scene");
-  o->scene.add_to(*command);
+  o->scene.add_to(*command, false);
   command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");
+  command->add_option("--restart", o->restart, "go on from a checkpoint, or the newest one in a folder of results");
+  command->add_option("--wall-limit", o->wall_limit, "interrupt the run after this time, \"30 min\" or 1:30:00");
   command->add_flag("--quiet", o->quiet, "print nothing but errors");
   command->add_flag("--profile", o->profile, "print the time of each task");
   command->callback([o] {
-    const Scene scene = o->scene.read();
-    with_precision(scene.precision, [&](auto real) { run<typename decltype(real)::type>(*o, scene); });
+    std::optional<CheckpointFile> from;
+    if (!o->restart.empty())
+      from.emplace(find_checkpoint(o->restart));
+    const CheckpointFile* restart = from ? &*from : nullptr;
+    const Scene scene = choose_scene(o->scene, restart);
+    require_memory(scene);
+    with_precision(scene.precision, [&](auto real) { run<typename decltype(real)::type>(*o, scene, restart); });
   });
 }
 

@@ -1,7 +1,10 @@
 // One way to fail: what went wrong, where, with which value, against which limit, and what to try.
 #pragma once
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "core/math/vec.hpp"
 
 namespace riven {
 
@@ -11,11 +14,12 @@ enum class Exit : int { done = 0, internal = 1, bad_input = 2, unstable = 3, fil
 /// The parts of an error message. Empty parts are left out of the text, and may be left out of an initialiser.
 struct Trouble {
   Exit code = Exit::internal;
-  std::string what{};        ///< one sentence: what is wrong
-  std::string where{};       ///< file and line and key, or step, time and particle
-  std::string value{};       ///< the offending value
-  std::string limit{};       ///< what is allowed
-  std::string suggestion{};  ///< what to try, or the nearest valid name
+  std::string what{};           ///< one sentence: what is wrong
+  std::string where{};          ///< file and line and key, or step, time and particle
+  std::string value{};          ///< the offending value
+  std::string limit{};          ///< what is allowed
+  std::string suggestion{};     ///< what to try, or the nearest valid name
+  std::optional<Vec2> place{};  ///< m, in the scene, where it has one; not in the text
 };
 
 class Error : public std::runtime_error {

@@ -63,7 +63,7 @@ bool write_all(int descriptor, const void* data, std::size_t bytes) {
 }
 
 void append(int descriptor, const fs::path& path, std::string_view text) {
-  const off_t before = ::lseek(descriptor, 0, SEEK_CUR);
+  const off_t before = ::lseek(descriptor, 0, SEEK_END);  // a file opened to be appended to stands at its start
   if (write_all(descriptor, text.data(), text.size()))
     return;
   const int cause = errno;

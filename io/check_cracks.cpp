@@ -46,6 +46,15 @@ void check_contact(const Scene& s, const std::string& key, const ContactSettings
            "greater than 0", "law = \"frictionless\" for none");
 }
 
+/// Contact that waits for faces to close needs faces that start apart.
+void check_waiting(const Scene& s, const CrackLine& c) {
+  const ContactLaw law = c.contact.value_or(s.contact).law;
+  if (s.contact_rules.when == ContactWhen::closing && (law == ContactLaw::interface || law == ContactLaw::bonded))
+    refuse(s, "crack " + c.name, "contact of faces that hold together from the start cannot wait for them to close",
+           fmt::format("law = \"{}\", contact.when = \"auto\"", name_of(law)), "ignored, stick, frictionless, coulomb",
+           "contact.when = \"always\"");
+}
+
 /// Growth asked for must have a tip to grow from.
 void check_growth(const Scene& s) {
   if (!s.growth &&
@@ -89,6 +98,7 @@ void check_cracks(const Scene& s) {
   for (const CrackLine& c : s.cracks) {
     if (c.contact)
       check_contact(s, "crack " + c.name, *c.contact);
+    check_waiting(s, c);
     for (size_t i = 0; i < c.points.size(); ++i) {
       const Vec2 p = c.points[i];
       if (i > 0 && norm(p - c.points[i - 1]) < 1e-9 * s.cell)

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/at_place.hpp"
 #include "io/suggest.hpp"
-#include "io/text_file.hpp"
 #include "io/units.hpp"
 
 namespace riven {
@@ -69,21 +68,15 @@ Column column(const std::string& head, const std::string& where) {
   }
   if (unit.empty())
     fail({Exit::bad_input, "column '" + shown(head) + "' has no unit", where, "", allowed, "'" + name + "_mm'"});
-  try {
-    return {static_cast<int>((found - names.begin()) % 4), parse_quantity("1 " + unit, dimension::length)};
-  } catch (const Error& e) {
-    Trouble t = e.trouble();
-    t.where = where;
-    fail(std::move(t));
-  }
+  const double scale = at_place(where, [&] { return parse_quantity("1 " + unit, dimension::length); });
+  return {static_cast<int>((found - names.begin()) % 4), scale};
 }
 
 double number(const std::string& text, const std::string& where) {
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(x))
+  const std::optional<double> x = plain_number(text);
+  if (!x || !std::isfinite(*x))
     fail({Exit::bad_input, "this is not a finite number", where, "\"" + shown(text) + "\"", "", ""});
-  return x;
+  return *x;
 }
 
 std::vector<Column> header(const std::string& line, const std::string& where) {
@@ -100,10 +93,6 @@ std::vector<Column> header(const std::string& line, const std::string& where) {
 }
 
 }  // namespace
-
-std::vector<CrackRow> read_crack_file(const std::string& path, const std::string& where) {
-  return parse_crack_file(read_text_file(path, "the crack file", where), path, where);
-}
 
 std::vector<CrackRow> parse_crack_file(std::string_view text, const std::string& path, const std::string& where) {
   std::vector<Column> columns;

@@ -15,12 +15,9 @@ struct CrackRow {
   std::string where;  ///< "cracks.csv:12"
 };
 
-/// Reads a CSV file whose header names the columns and their unit, for example "x0_mm,y0_mm,x1_mm,y1_mm" or
-/// "crack,x_start (mm),y_start (mm),x_end (mm),y_end (mm)". `where` is the place that asks for the file. Throws Error:
-/// file when it cannot be read, bad_input with file and line for what is in it.
-std::vector<CrackRow> read_crack_file(const std::string& path, const std::string& where);
-
-/// The same from the contents of the file; `path` names it in messages.
+/// Reads CSV whose header names the columns and their unit, for example "x0_mm,y0_mm,x1_mm,y1_mm" or
+/// "crack,x_start (mm),y_start (mm),x_end (mm),y_end (mm)". `path` is the file it comes from, `where` the place that
+/// asks for it. Throws Error (bad_input) with file and line.
 std::vector<CrackRow> parse_crack_file(std::string_view text, const std::string& path, const std::string& where);
 
 }  // namespace riven

@@ -24,17 +24,42 @@ const char* name(CrackEvent::Kind kind) {
     case CrackEvent::Kind::join: return "join";
     case CrackEvent::Kind::exit: return "exit";
     case CrackEvent::Kind::meet: return "meet";
+    case CrackEvent::Kind::close: return "close";
+    case CrackEvent::Kind::open: return "open";
+    case CrackEvent::Kind::retry: return "retry";
   }
   return "?";
 }
 
+/// Faces close and open somewhere between the ends, and a run goes wrong anywhere.
+bool at_an_end(CrackEvent::Kind kind) {
+  return kind != CrackEvent::Kind::close && kind != CrackEvent::Kind::open && kind != CrackEvent::Kind::retry;
+}
+
+std::string line(const CrackEvent& e, const Cracks& cracks) {
+  const auto crack = [&](int c) {
+    return c < 0 ? std::string() : csv_field(cracks.names[static_cast<std::size_t>(c)]);
+  };
+  return fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
+                     crack(e.crack), at_an_end(e.kind) ? end_name(e.last) : "", name(e.kind), e.place.x, e.place.y,
+                     crack(e.other), e.K_I, e.K_II, e.J, e.speed);
+}
+
 }  // namespace
 
-EventLog::EventLog(std::filesystem::path path) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_TRUNC, 0666);
+EventLog::EventLog(std::filesystem::path path, const std::vector<CrackEvent>& events, const Cracks& cracks)
+    : path_(std::move(path)), written_(events.size()) {
+  if (!events.empty()) {
+    std::string text(header);
+    for (const CrackEvent& e : events)
+      text += line(e, cracks);
+    write_file(path_, text);
+  }
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (events.empty() ? O_TRUNC : O_APPEND), 0666);
   if (descriptor_ < 0)
     fail_file(path_, "write the file", errno);
-  append(descriptor_, path_, header);
+  if (events.empty())
+    append(descriptor_, path_, header);
 }
 
 EventLog::~EventLog() {
@@ -42,16 +67,8 @@ EventLog::~EventLog() {
 }
 
 void EventLog::write(const std::vector<CrackEvent>& events, const Cracks& cracks) {
-  for (; written_ < events.size(); ++written_) {
-    const CrackEvent& e = events[written_];
-    const auto crack = [&](int c) {
-      return c < 0 ? std::string() : csv_field(cracks.names[static_cast<std::size_t>(c)]);
-    };
-    append(descriptor_, path_,
-           fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
-                       crack(e.crack), end_name(e.last), name(e.kind), e.place.x, e.place.y, crack(e.other), e.K_I,
-                       e.K_II, e.J, e.speed));
-  }
+  for (; written_ < events.size(); ++written_)
+    append(descriptor_, path_, line(events[written_], cracks));
 }
 
 }  // namespace riven

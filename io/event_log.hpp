@@ -1,4 +1,5 @@
-// events.csv: what happened at the tips of cracks, each line written as it happens.
+// events.csv: what happened at the tips of cracks, and when contact that waits for their faces was switched on and off,
+// and when the run went wrong and went back; each line written as it happens.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -10,8 +11,9 @@ namespace riven {
 
 class EventLog {
  public:
-  /// Begins the file with its header. Throws Error (file).
-  explicit EventLog(std::filesystem::path path);
+  /// Begins the file with its header, and with the events that a run that is taken up again has seen: these it gets at
+  /// once, or stays as it was. Throws Error (file).
+  explicit EventLog(std::filesystem::path path, const std::vector<CrackEvent>& events = {}, const Cracks& cracks = {});
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;

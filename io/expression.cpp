@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <string_view>
 #include <vector>
@@ -59,10 +60,10 @@ const std::vector<std::pair<std::string, Binary>>& binary_functions() {
   return table;
 }
 
-/// A parser with t bound to a variable of its own; not to be copied or moved, muParser keeps the address.
+/// A parser with its variables bound to places of its own; not to be copied or moved, muParser keeps the addresses.
 class Shape {
  public:
-  Shape(const std::string& text, const std::map<std::string, double>& times) {
+  Shape(const std::string& text, const Constants& constants, bool of_places) {
     parser_.ClearFun();
     parser_.ClearConst();
     for (const auto& [name, f] : unary_functions())
@@ -70,9 +71,13 @@ class Shape {
     for (const auto& [name, f] : binary_functions())
       parser_.DefineFun(name, f);
     parser_.DefineConst("pi", std::numbers::pi);
-    for (const auto& [name, value] : times)
+    for (const auto& [name, value] : constants)
       parser_.DefineConst(name, value);
     parser_.DefineVar("t", &t_);
+    if (of_places) {
+      parser_.DefineVar("X", &X_);
+      parser_.DefineVar("Y", &Y_);
+    }
     parser_.SetExpr(text);
   }
   Shape(const Shape&) = delete;
@@ -87,19 +92,54 @@ class Shape {
       throw mu::ParserError("one value expected, found a list");
     return last[0];
   }
+  double at(double t, double X, double Y) {
+    X_ = X;
+    Y_ = Y;
+    return at(t);
+  }
 
  private:
   mu::Parser parser_;
-  double t_ = 0;
+  double t_ = 0, X_ = 0, Y_ = 0;
 };
 
-std::vector<std::string> names(const std::map<std::string, double>& times) {
+/// As many parsers of one text as there are threads that want one at a time.
+class Pool {
+ public:
+  Pool(std::string text, Constants constants) : text_(std::move(text)), constants_(std::move(constants)) {}
+
+  std::unique_ptr<Shape> take() {
+    {
+      const std::lock_guard lock(guard_);
+      if (!free_.empty()) {
+        std::unique_ptr<Shape> one = std::move(free_.back());
+        free_.pop_back();
+        return one;
+      }
+    }
+    return std::make_unique<Shape>(text_, constants_, true);
+  }
+  void give(std::unique_ptr<Shape> one) {
+    const std::lock_guard lock(guard_);
+    free_.push_back(std::move(one));
+  }
+
+ private:
+  const std::string text_;
+  const Constants constants_;
+  std::mutex guard_;
+  std::vector<std::unique_ptr<Shape>> free_;
+};
+
+std::vector<std::string> names(const Constants& constants, bool of_places) {
   std::vector<std::string> all{"t", "pi"};
+  if (of_places)
+    all.insert(all.end(), {"X", "Y"});
   for (const auto& [name, f] : unary_functions())
     all.push_back(name);
   for (const auto& [name, f] : binary_functions())
     all.push_back(name);
-  for (const auto& [name, value] : times)
+  for (const auto& [name, value] : constants)
     all.push_back(name);
   return all;
 }
@@ -125,25 +165,47 @@ void check_characters(const std::string& text) {
   }
 }
 
-void check_times(const std::map<std::string, double>& times) {
-  const std::vector<std::string> taken = names({});
-  for (const auto& [name, value] : times) {
-    const bool word =
-        !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
-        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-    if (!word || name.size() > 32 || std::find(taken.begin(), taken.end(), name) != taken.end())
-      refuse("this cannot be the name of a time", name, "letters, digits and _, and not the name of a function");
-  }
+[[noreturn]] void unreadable(const mu::ParserError& e, const std::string& text, const Constants& constants,
+                             bool of_places) {
+  const std::string near = nearest(e.GetToken(), names(constants, of_places));
+  refuse("the expression cannot be read: " + shown(e.GetMsg()), text,
+         "the named constants, " + listed(names({}, of_places)),
+         near.empty() || near == e.GetToken() ? "" : "did you mean '" + near + "'?");
+}
+
+void check(const std::string& text, const Constants& constants) {
+  check_characters(text);
+  for (const auto& [name, value] : constants)
+    check_constant_name(name);
 }
 
 }  // namespace
 
-std::function<double(double)> parse_shape(const std::string& text, const std::map<std::string, double>& times,
-                                          double end) {
-  check_characters(text);
-  check_times(times);
+void check_constant_name(const std::string& word) {
+  constexpr size_t longest = 32;
+  const std::vector<std::string> taken = names({}, true);
+  const bool plain =
+      !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) &&
+      std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  if (!plain || word.size() > longest || std::find(taken.begin(), taken.end(), word) != taken.end())
+    refuse("this cannot be the name of a constant", word,
+           "letters, digits and _, and neither the name of a function nor t, X, Y, pi");
+}
+
+bool names_place(const std::string& text) {
+  const auto part_of_word = [&](size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  for (size_t i = 0; i < text.size(); ++i)
+    if ((text[i] == 'X' || text[i] == 'Y') && !part_of_word(i + 1) && (i == 0 || !part_of_word(i - 1)))
+      return true;
+  return false;
+}
+
+std::function<double(double)> parse_shape(const std::string& text, const Constants& constants, double end) {
+  check(text, constants);
   try {
-    const auto shape = std::make_shared<Shape>(text, times);
+    const auto shape = std::make_shared<Shape>(text, constants, false);
     for (int i = 0; i <= samples; ++i) {
       const double t = end * i / samples, value = shape->at(t);
       if (!std::isfinite(value))
@@ -158,11 +220,30 @@ std::function<double(double)> parse_shape(const std::string& text, const std::ma
       }
     };
   } catch (const mu::ParserError& e) {
-    const std::string near = nearest(e.GetToken(), names(times));
-    refuse("the expression cannot be read: " + shown(e.GetMsg()), text,
-           "t, pi, the named times and " + listed(names({})),
-           near.empty() || near == e.GetToken() ? "" : "did you mean '" + near + "'?");
+    unreadable(e, text, constants, false);
   }
+}
+
+PlaceShape parse_field(const std::string& text, const Constants& constants) {
+  check(text, constants);
+  const auto pool = std::make_shared<Pool>(text, constants);
+  try {
+    std::unique_ptr<Shape> first = pool->take();
+    first->at(0, 0, 0);
+    pool->give(std::move(first));
+  } catch (const mu::ParserError& e) {
+    unreadable(e, text, constants, true);
+  }
+  return [pool](double t, long n, const double* X, const double* Y, double* out) {
+    std::unique_ptr<Shape> shape = pool->take();
+    try {
+      for (long i = 0; i < n; ++i)
+        out[i] = shape->at(t, X[i], Y[i]);
+    } catch (const mu::ParserError&) {
+      std::fill(out, out + n, std::numeric_limits<double>::quiet_NaN());
+    }
+    pool->give(std::move(shape));
+  };
 }
 
 }  // namespace riven

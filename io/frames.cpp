@@ -47,16 +47,14 @@ void remove_from(const fs::path& folder, int first_frame) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(fs::path folder, const Scene& scene, int first_frame)
-    : folder_(std::move(folder)), scene_(scene), next_(first_frame) {
+FrameWriter::FrameWriter(fs::path folder, const Scene& scene, std::vector<double> times)
+    : folder_(std::move(folder)), scene_(scene), times_(std::move(times)) {
   make_folder(folder_ / "frames");
-  remove_from(folder_, first_frame);
-  for (const fs::path& path : list_frames(folder_ / "frames", prefixes[0]))
-    times_.push_back(read_vtkhdf_time(path));
+  remove_from(folder_, static_cast<int>(times_.size()));
 }
 
 void FrameWriter::write_one(const std::string& prefix, PolyData data, double time) const {
-  const fs::path path = folder_ / "frames" / frame_name(prefix, next_);
+  const fs::path path = folder_ / "frames" / frame_name(prefix, static_cast<int>(times_.size()));
   if (scene_.output.sidecar == Sidecar::vtp)
     write_vtp(path.string() + ".vtp", data, time);
   write_vtkhdf(path.string() + ".vtkhdf", std::move(data), time);
@@ -68,7 +66,6 @@ void FrameWriter::write(double time, const Particles<Real, 2>& particles, const 
   if (!scene_.cracks.empty())
     write_one(prefixes[1], crack_poly(cracks), time);
   times_.push_back(time);
-  ++next_;
   if (scene_.output.sidecar == Sidecar::vtp)
     write_indices();
 }
@@ -86,6 +83,22 @@ void FrameWriter::write_indices() const {
 
 void FrameWriter::finish() const {
   assemble_frames(folder_);
+}
+
+void bring_frames(const fs::path& from, const fs::path& to, int count) {
+  make_folder(to / "frames");
+  std::error_code error;
+  if (fs::equivalent(from.empty() ? "." : from, to, error))
+    return;
+  remove_from(to, 0);
+  for (const std::string& prefix : prefixes)
+    for (int n = 0; n < count; ++n)
+      for (const char* ending : {".vtkhdf", ".vtp"}) {
+        const fs::path name = fs::path("frames") / (frame_name(prefix, n) + ending);
+        fs::copy_file(from / name, to / name, error);
+        if (error && error != std::errc::no_such_file_or_directory)
+          fail_file(to / name, "copy the file", error.value());
+      }
 }
 
 int assemble_frames(const fs::path& folder) {

@@ -34,14 +34,15 @@ PolyData crack_poly(const Cracks& cracks);
 /// Writes numbered frames into `folder`/frames, each whole or not at all, and joins them at the end.
 class FrameWriter {
  public:
-  /// A run that begins anew (first_frame = 0) removes the frames of an older run in the same folder; one that is
-  /// resumed keeps those before first_frame. Throws Error (file).
-  FrameWriter(std::filesystem::path folder, const Scene& scene, int first_frame = 0);
+  /// A run that begins anew removes the frames of an older run in the same folder; one that is taken up again keeps
+  /// the first of them, those of these times. Throws Error (file).
+  FrameWriter(std::filesystem::path folder, const Scene& scene, std::vector<double> times = {});
   template <class Real>
   void write(double time, const Particles<Real, 2>& particles, const Cracks& cracks);
   /// Makes particles.vtkhdf and cracks.vtkhdf.
   void finish() const;
-  int next_frame() const { return next_; }
+  /// Of all frames so far, s.
+  const std::vector<double>& times() const { return times_; }
 
  private:
   void write_one(const std::string& prefix, PolyData data, double time) const;
@@ -49,9 +50,12 @@ class FrameWriter {
 
   std::filesystem::path folder_;
   const Scene& scene_;
-  int next_;
-  std::vector<double> times_;  ///< of all frames so far
+  std::vector<double> times_;
 };
+
+/// Copies the first frames of one folder of results to another one, in place of those that are there; nothing when both
+/// are the same. Frames that are missing are left out. Throws Error (file).
+void bring_frames(const std::filesystem::path& from, const std::filesystem::path& to, int count);
 
 /// Joins the frames of a finished or killed run. Returns how many frames of particles there were.
 int assemble_frames(const std::filesystem::path& folder);

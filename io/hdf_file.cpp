@@ -17,6 +17,10 @@ template <class T>
 hid_t type_of() {
   if constexpr (std::is_same_v<T, double>)
     return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, float>)
+    return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, std::uint8_t>)
+    return H5T_NATIVE_UINT8;
   if constexpr (std::is_same_v<T, std::int64_t>)
     return H5T_NATIVE_INT64;
   if constexpr (std::is_same_v<T, std::int32_t>)
@@ -36,13 +40,15 @@ herr_t innermost(unsigned n, const H5E_error2_t* entry, void* text) {
 
 }  // namespace
 
-HdfFile HdfFile::create(const std::filesystem::path& path) {
+HdfFile HdfFile::create(const std::filesystem::path& path, std::size_t own_bytes) {
   silence();
   HdfFile f(path);
   f.target_ = std::make_unique<AtomicFile>(path);
   f.failure_ = std::make_unique<int>(0);
   const HdfId access(f.check(make_driver_list(f.target_->descriptor(), f.failure_.get()), "write the file"), H5Pclose);
-  f.file_ = HdfId(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  const HdfId layout(f.check(H5Pcreate(H5P_FILE_CREATE), "write the file"), H5Pclose);
+  f.check(H5Pset_userblock(layout, own_bytes), "write the file");
+  f.file_ = HdfId(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, layout, access), H5Fclose);
   f.check(f.file_, "write the file");
   return f;
 }
@@ -119,6 +125,7 @@ void HdfFile::append(const std::string& dataset, const T* values, std::size_t ro
     const HdfId space(check(H5Screate_simple(rank, size, limit), attempt), H5Sclose);
     const HdfId layout(check(H5Pcreate(H5P_DATASET_CREATE), attempt), H5Pclose);
     check(H5Pset_chunk(layout, rank, chunk), attempt);
+    check(H5Pset_obj_track_times(layout, false), attempt);  // the same contents are the same bytes
     if constexpr (std::is_integral_v<T>) {
       check(H5Pset_shuffle(layout), attempt);
       check(H5Pset_deflate(layout, 1), attempt);
@@ -140,9 +147,27 @@ void HdfFile::append(const std::string& dataset, const T* values, std::size_t ro
   check(id.close(), attempt);
 }
 
-void HdfFile::commit() {
+template <class T>
+void HdfFile::put(const std::string& dataset, const T* values, std::size_t count) {
+  const std::string attempt = "write " + dataset;
+  const hsize_t size = count;
+  const HdfId space(check(H5Screate_simple(1, &size, nullptr), attempt), H5Sclose);
+  const HdfId links(check(H5Pcreate(H5P_LINK_CREATE), attempt), H5Pclose);
+  check(H5Pset_create_intermediate_group(links, 1), attempt);
+  const HdfId layout(check(H5Pcreate(H5P_DATASET_CREATE), attempt), H5Pclose);
+  check(H5Pset_obj_track_times(layout, false), attempt);
+  HdfId id(check(H5Dcreate2(file_, dataset.c_str(), type_of<T>(), space, links, layout, H5P_DEFAULT), attempt),
+           H5Dclose);
+  if (count > 0)
+    check(H5Dwrite(id, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), attempt);
+  check(id.close(), attempt);
+}
+
+void HdfFile::commit(const std::function<void(int descriptor)>& finish) {
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write the file");
   check(file_.close(), "write the file");
+  if (finish)
+    finish(target_->descriptor());
   target_->commit();
   target_.reset();
 }
@@ -238,7 +263,13 @@ template void HdfFile::put_attribute(const std::string&, const std::string&, con
 template void HdfFile::append(const std::string&, const double*, std::size_t, std::size_t);
 template void HdfFile::append(const std::string&, const std::int64_t*, std::size_t, std::size_t);
 template void HdfFile::append(const std::string&, const std::int32_t*, std::size_t, std::size_t);
+template void HdfFile::put(const std::string&, const double*, std::size_t);
+template void HdfFile::put(const std::string&, const float*, std::size_t);
+template void HdfFile::put(const std::string&, const std::int32_t*, std::size_t);
+template void HdfFile::put(const std::string&, const std::uint8_t*, std::size_t);
 template std::vector<double> HdfFile::read(const std::string&) const;
+template std::vector<float> HdfFile::read(const std::string&) const;
+template std::vector<std::uint8_t> HdfFile::read(const std::string&) const;
 template std::vector<std::int64_t> HdfFile::read(const std::string&) const;
 template std::vector<std::int32_t> HdfFile::read(const std::string&) const;
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,11 +40,13 @@ class HdfId {
   Close close_ = nullptr;
 };
 
-/// Paths of groups and datasets are as in HDF5, "/VTKHDF/Points". T is double, std::int64_t or std::int32_t.
+/// Paths of groups and datasets are as in HDF5, "/VTKHDF/Points". T is double, std::int64_t or std::int32_t; in put and
+/// read it may be float or std::uint8_t, too.
 class HdfFile {
  public:
-  /// A new file, which has its name only after commit().
-  static HdfFile create(const std::filesystem::path& path);
+  /// A new file, which has its name only after commit(). Its first `own_bytes` (0, or a power of two from 512 on) are
+  /// none of HDF5's.
+  static HdfFile create(const std::filesystem::path& path, std::size_t own_bytes = 0);
   /// A finished file, to read.
   static HdfFile open(const std::filesystem::path& path);
 
@@ -61,8 +64,11 @@ class HdfFile {
   /// list. Integers are compressed.
   template <class T>
   void append(const std::string& dataset, const T* values, std::size_t rows, std::size_t width = 0);
-  /// Closes, syncs and renames.
-  void commit();
+  /// A plain list at once, stored as it stands in memory. The groups on the way to it are made.
+  template <class T>
+  void put(const std::string& dataset, const T* values, std::size_t count);
+  /// Closes, calls `finish` with the descriptor of what is then a complete file, syncs and renames.
+  void commit(const std::function<void(int descriptor)>& finish = {});
 
   bool has(const std::string& object) const;
   std::vector<std::string> children(const std::string& group) const;  ///< names in ascending order

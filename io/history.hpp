@@ -1,7 +1,6 @@
 // history.csv: named quantities over time, one row at a time, complete rows only whatever happens to the run.
 #pragma once
 #include <filesystem>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,21 +17,22 @@ struct HistoryColumn {
 
 class History {
  public:
-  /// Begins a file with the header "name [unit],..."; the first column is the time. With a finite `keep_until`,
-  /// rows of a file with the same header up to and including that time, s, are kept and the rest is dropped: a
-  /// resumed run goes on where its checkpoint was. Throws Error (file).
-  History(std::filesystem::path path, const std::vector<HistoryColumn>& columns,
-          double keep_until = -std::numeric_limits<double>::infinity());
+  /// Begins a file with the header "name [unit],..."; the first column is the time. With `rows`, as rows() of a run
+  /// that is taken up again gave them, the file gets these at once, or stays as it was. Throws Error (file).
+  History(std::filesystem::path path, const std::vector<HistoryColumn>& columns, const std::string& rows = {});
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
   /// One value per column, written through to the file. After a failed write the file ends with the row before.
   void row(std::span<const double> values);
+  /// What is in the file below its header. Throws Error (file).
+  std::string rows() const;
 
  private:
   std::filesystem::path path_;
   std::size_t columns_;
+  std::size_t header_bytes_;
   int descriptor_ = -1;
 };
 

@@ -204,6 +204,20 @@ std::vector<std::string> Table::texts(const char* key) const {
   return list;
 }
 
+std::string Table::value(const char* key) const {
+  return toml_value(need(key));
+}
+
+std::vector<std::string> Table::values(const char* key) const {
+  const toml::node& node = need(key);
+  if (!node.is_array())
+    wrong_type(node, key, "an array");
+  std::vector<std::string> list;
+  for (const toml::node& item : *node.as_array())
+    list.push_back(toml_value(item));
+  return list;
+}
+
 size_t Table::one_of(const char* key, const std::vector<std::string>& names, std::optional<size_t> fallback) const {
   if (fallback && absent(key, names[*fallback]))
     return *fallback;

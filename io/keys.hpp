@@ -11,6 +11,7 @@
 
 #include "core/scene/names.hpp"
 #include "core/scene/scene.hpp"
+#include "io/expression.hpp"
 #include "io/suggest.hpp"
 #include "io/toml.hpp"
 #include "io/units.hpp"
@@ -53,6 +54,10 @@ class Table {
   std::string text(const char* key) const;
   std::string text(const char* key, const std::string& fallback) const;
   std::vector<std::string> texts(const char* key) const;
+  /// Anything, as it would stand in TOML.
+  std::string value(const char* key) const;
+  /// The items of an array, each likewise.
+  std::vector<std::string> values(const char* key) const;
   /// A quantity in SI units; `said` is how a fallback is shown when it stands for something else.
   double quantity(const char* key, const Dimension& d, Range allowed) const;
   double quantity(const char* key, const Dimension& d, Range allowed, double fallback,
@@ -66,6 +71,10 @@ class Table {
   std::vector<Vec2> points(const char* key, size_t least) const;
   /// A quantity or { value = .., shape = .., name = time .. }; empty when the key is absent.
   std::optional<TimeFunction> function(const char* key, const Dimension& d) const;
+  /// The same, whose shape may name places, X and Y, and constants of any dimension, or plain numbers.
+  std::optional<Field> field(const char* key, const Dimension& d) const;
+  /// The table at `key`: each of its keys is a constant that all shapes read from now on may use.
+  void constants(const char* key) const;
   /// One of the names in Names<E>.
   template <class E>
   E choice(const char* key, std::optional<E> fallback = {}) const {
@@ -95,6 +104,15 @@ class Table {
   void check_known() const;
   std::string path(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
   double quantity_of(const toml::node& node, const char* key, const Dimension& d) const;
+  double constant_of(const toml::node& node, const std::string& place) const;
+  struct Shaped {
+    double value = 0;
+    std::string shape, text;
+    Constants constants;
+  };
+  /// `times`: its own constants are times; else they may be anything.
+  Shaped shaped(const toml::table& entries, const char* key, const Dimension& d, bool times) const;
+  TimeFunction of_time(const Shaped& f, const char* key) const;
   Vec2 vector_of(const toml::node& node, const char* key, const Dimension& d) const;
   double checked(const char* key, double value, Range allowed, const std::string& unit) const;
   [[noreturn]] void wrong_type(const toml::node& node, const char* key, const char* expected) const;

@@ -1,10 +1,10 @@
 // The part of Table that reads physical quantities, vectors of them, and functions of time.
 #include <cmath>
-#include <map>
 
 #include "core/error.hpp"
-#include "io/expression.hpp"
+#include "io/at_place.hpp"
 #include "io/keys.hpp"
+#include "io/toml_text.hpp"
 
 namespace riven {
 
@@ -18,14 +18,7 @@ std::string si_text(double value, const Dimension& d) {
 
 template <class F>
 auto Table::placed(const char* key, F read) const {
-  try {
-    return read();
-  } catch (const Error& e) {
-    Trouble t = e.trouble();
-    if (t.where.empty())
-      t.where = where(key);
-    fail(std::move(t));
-  }
+  return at_place(where(key), read);
 }
 
 double Table::quantity_of(const toml::node& node, const char* key, const Dimension& d) const {
@@ -91,39 +84,73 @@ std::vector<Vec2> Table::points(const char* key, size_t least) const {
   return list;
 }
 
+double Table::constant_of(const toml::node& node, const std::string& place) const {
+  if (const std::optional<double> number = node.value_exact<double>())
+    return *number;
+  if (const std::optional<int64_t> number = node.value_exact<int64_t>())
+    return static_cast<double>(*number);
+  if (!node.is_string())
+    fail({Exit::bad_input, "this is no constant", place, toml_value(node), "a number, or a quantity as a text", ""});
+  return at_place(place, [&] { return parse_any_quantity(*node.value<std::string>()); });
+}
+
+void Table::constants(const char* key) const {
+  const toml::node* node = find(key);
+  if (!node)
+    return;
+  if (!node->is_table())
+    wrong_type(*node, key, "a table of constants");
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string word(name.str()), place = where(key) + "." + shown(word);
+    at_place(place, [&] { check_constant_name(word); });
+    scene_->constants[word] = constant_of(entry, place);
+  }
+}
+
+Table::Shaped Table::shaped(const toml::table& entries, const char* key, const Dimension& d, bool times) const {
+  for (const char* part : {"value", "shape"})
+    if (!entries.contains(part))
+      refuse(key, fmt::format("a function needs the key '{}'", part),
+             "{ value = \"1 mm\", shape = \"sin(t/tr)\", tr = \"1 ms\" }");
+  Shaped f;
+  f.constants = scene_->constants;
+  f.value = quantity_of(*entries.get("value"), key, d);
+  if (!entries.get("shape")->is_string())
+    wrong_type(*entries.get("shape"), key, "a shape as a text, an expression in t");
+  f.shape = *entries.get("shape")->value<std::string>();
+  f.text = fmt::format("{} * ({})", entries.get("value")->value<std::string>().value_or(""), f.shape);
+  // names beside value and shape are free: they are the constants that the shape uses
+  for (const auto& [name, entry] : entries)
+    if (name != "value" && name != "shape") {
+      f.constants[std::string(name.str())] =
+          times ? quantity_of(entry, key, dimension::time) : constant_of(entry, where(key) + "." + shown(name.str()));
+      f.text += fmt::format(", {} = {}", name.str(), entry.value<std::string>().value_or(toml_value(entry)));
+    }
+  return f;
+}
+
+TimeFunction Table::of_time(const Shaped& f, const char* key) const {
+  return {f.value, placed(key, [&] { return parse_shape(f.shape, f.constants, scene_->end_time); }), f.text};
+}
+
 std::optional<TimeFunction> Table::function(const char* key, const Dimension& d) const {
   const toml::node* node = find(key);
   if (!node)
     return std::nullopt;
-  TimeFunction f;
-  if (!node->is_table()) {
-    f.value = quantity(key, d, range::any);
-    f.text = *node->value<std::string>();
-    return f;
-  }
-  // Names beside value and shape are free: they are the times that the shape uses.
-  const toml::table& entries = *node->as_table();
-  for (const char* part : {"value", "shape"})
-    if (!entries.contains(part))
-      refuse(key, fmt::format("a function of time needs the key '{}'", part),
-             "{ value = \"1 mm\", shape = \"sin(t/tr)\", tr = \"1 ms\" }");
-  std::string shape;
-  std::map<std::string, double> times;
-  for (const auto& [name, entry] : entries) {
-    if (name == "value") {
-      f.value = quantity_of(entry, key, d);
-    } else if (name == "shape") {
-      if (!entry.is_string())
-        wrong_type(entry, key, "a shape as a text, an expression in t");
-      shape = *entry.value<std::string>();
-    } else {
-      times[std::string(name.str())] = quantity_of(entry, key, dimension::time);
-    }
-  }
-  f.shape = placed(key, [&] { return parse_shape(shape, times, scene_->end_time); });
-  f.text = fmt::format("{} * ({})", entries.get("value")->value<std::string>().value_or(""), shape);
-  for (const auto& [name, seconds] : times)
-    f.text += fmt::format(", {} = {}", name, entries.get(name)->value<std::string>().value_or(""));
+  if (!node->is_table())
+    return TimeFunction{quantity(key, d, range::any), {}, *node->value<std::string>()};
+  return of_time(shaped(*node->as_table(), key, d, true), key);
+}
+
+std::optional<Field> Table::field(const char* key, const Dimension& d) const {
+  const toml::node* node = find(key);
+  if (!node || !node->is_table())
+    return function(key, d);
+  const Shaped read = shaped(*node->as_table(), key, d, false);
+  Field f(read.value, placed(key, [&] { return parse_field(read.shape, read.constants); }));
+  if (!names_place(read.shape))
+    return of_time(read, key);
+  f.text = read.text;
   return f;
 }
 

@@ -68,6 +68,15 @@ size_t entry_of(const toml::array& array, const std::string& part, const std::st
         near.empty() ? "" : "did you mean '" + near + "'?"});
 }
 
+[[noreturn]] void nothing_to_take_away(const toml::table& from, const std::string& part, const std::string& source) {
+  std::vector<std::string> names;
+  for (const auto& [key, node] : from)
+    names.emplace_back(key.str());
+  const std::string near = nearest(part, names);
+  fail({Exit::bad_input, "there is no key '" + shown(part) + "' to take away", shown(source), "", listed(names),
+        near.empty() ? "" : "did you mean '" + near + "'?"});
+}
+
 void apply(toml::table& root, const std::string& argument) {
   const std::string source = "--set " + argument;
   const size_t equals = argument.find('=');
@@ -77,11 +86,18 @@ void apply(toml::table& root, const std::string& argument) {
   const std::vector<std::string> parts = split_path(std::string_view(argument).substr(0, equals));
   if (parts.size() > deepest || std::any_of(parts.begin(), parts.end(), [](const auto& p) { return p.empty(); }))
     fail({Exit::bad_input, "the path of a setting cannot be read", shown(source), "", "names joined by dots", ""});
-  toml::table value = value_of(argument.substr(equals + 1), source);
+  const bool take_away = equals + 1 == argument.size();
+  toml::table value = take_away ? toml::table() : value_of(argument.substr(equals + 1), source);
   toml::node* at = &root;
   for (size_t i = 0; i < parts.size(); ++i) {
     const bool last = i + 1 == parts.size();
     if (toml::table* table = at->as_table()) {
+      if (take_away && !table->contains(parts[i]))
+        nothing_to_take_away(*table, parts[i], source);
+      if (last && take_away) {
+        table->erase(parts[i]);
+        return;
+      }
       if (last) {
         table->insert_or_assign(parts[i], std::move(*value.get("value")));
         return;
@@ -91,6 +107,10 @@ void apply(toml::table& root, const std::string& argument) {
       at = table->get(parts[i]);
     } else if (toml::array* array = at->as_array()) {
       const size_t entry = entry_of(*array, parts[i], source);
+      if (last && take_away) {
+        array->erase(array->cbegin() + static_cast<ptrdiff_t>(entry));
+        return;
+      }
       if (last) {
         array->replace(array->cbegin() + static_cast<ptrdiff_t>(entry), std::move(*value.get("value")));
         return;

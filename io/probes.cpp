@@ -56,6 +56,31 @@ double mean_stress(const SimulationOf<Real>& m, const Probe& probe) {
   return sums.stress / sums.volume;
 }
 
+/// Root mean square, over all particles, of the distance between their displacement and the exact one.
+template <class Real>
+double displacement_error(const SimulationOf<Real>& m, const Probe& probe) {
+  constexpr long block = 512;
+  const auto& p = m.state.particles;
+  const long n = p.count(), blocks = (n + block - 1) / block;
+  std::vector<double> squares(static_cast<size_t>(blocks));
+  exec::parallel_tasks(m.space, "probes", blocks, [&](long b) {
+    const long first = b * block, count = std::min(block, n - first);
+    double exact[2][block], sum = 0;
+    for (const int axis : {0, 1})
+      probe.exact[axis].at(m.state.clock.time, count, p.x0[0].data() + first, p.x0[1].data() + first, exact[axis]);
+    for (long k = 0; k < count; ++k)
+      for (const int axis : {0, 1}) {
+        const double u = p.x[axis][first + k] - p.x0[axis][first + k] - exact[axis][k];
+        sum += u * u;
+      }
+    squares[static_cast<size_t>(b)] = sum;
+  });
+  double sum = 0;
+  for (const double s : squares)
+    sum += s;
+  return std::sqrt(sum / static_cast<double>(n)) / probe.over;
+}
+
 template <class Real>
 double read_one(const SimulationOf<Real>& m, const Probe& probe, int target) {
   const auto& p = m.state.particles;
@@ -77,6 +102,7 @@ double read_one(const SimulationOf<Real>& m, const Probe& probe, int target) {
       return (axis == 0 ? t.x : t.y) / probe.over;
     }
     case Probe::Kind::mean_stress: return mean_stress(m, probe);
+    case Probe::Kind::displacement_error: return displacement_error(m, probe);
   }
   return 0;
 }
@@ -89,7 +115,8 @@ const char* unit(const Probe& p) {
     case Probe::Kind::stress:
     case Probe::Kind::mean_stress: return "Pa";
     case Probe::Kind::reaction: return p.over == 1 ? "N" : "Pa";
-    case Probe::Kind::travel: return p.over == 1 ? "m" : "1";
+    case Probe::Kind::travel:
+    case Probe::Kind::displacement_error: return p.over == 1 ? "m" : "1";
   }
   return "";
 }
@@ -107,7 +134,8 @@ Probes::Probes(const SimulationOf<Real>& m) : scene_(m.scene) {
       case Probe::Kind::crack_opening: target_.push_back(named(m.scene.cracks, p.target)); break;
       case Probe::Kind::reaction:
       case Probe::Kind::travel: target_.push_back(named(m.state.constraints.owners, p.target)); break;
-      case Probe::Kind::mean_stress: target_.push_back(0); break;
+      case Probe::Kind::mean_stress:
+      case Probe::Kind::displacement_error: target_.push_back(0); break;
       default: target_.push_back(nearest_particle(m.state.particles, p.point));
     }
 }

@@ -11,17 +11,20 @@
 
 namespace riven {
 
-Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides) {
+Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides,
+                  std::map<std::string, std::string> files) {
   toml::table document = parse_toml(text, name);
   apply_overrides(document, overrides);
   Scene s;
   s.name = std::filesystem::path(name).stem().string();
   s.source_path = std::move(name);
+  s.files = std::move(files);
   s.source_text = overrides.empty() ? std::string(text) : toml_text(document);
-  const Table root(document, s,
-                   {"title", "solver", "grid", "material", "body", "fix", "symmetry", "grip", "load", "body_force",
-                    "damping", "crack", "contact", "growth", "cracks", "fracture", "probe", "output", "limits"});
+  const Table root(document, s, {"title",    "constants", "solver",   "grid",       "material", "body",  "fix",
+                                 "symmetry", "grip",      "load",     "body_force", "damping",  "crack", "contact",
+                                 "growth",   "cracks",    "fracture", "probe",      "output",   "limits"});
   s.title = root.text("title", s.name);
+  root.constants("constants");
   read_solver(root, s);
   read_bodies(root, s);
   read_conditions(root, s);

@@ -1,5 +1,6 @@
 // Scenes from TOML.
 #pragma once
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,8 @@ namespace riven {
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// The scene that `text` describes, in SI units, not yet checked for meaning (see check_scene). `name` stands for the
-/// file in messages and is where relative paths start.
-Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides = {});
+/// file in messages and is where relative paths start. Of `files` (Scene::files) none is read again.
+Scene parse_scene(std::string_view text, std::string name, const std::vector<std::string>& overrides = {},
+                  std::map<std::string, std::string> files = {});
 
 }  // namespace riven

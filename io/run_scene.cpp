@@ -1,210 +1,246 @@
 #include "io/run_scene.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
-#include "core/scene/names.hpp"
 #include "core/scene/schedule.hpp"
-#include "io/atomic_file.hpp"
+#include "io/checkpoint_store.hpp"
 #include "io/event_log.hpp"
+#include "io/folder_lock.hpp"
 #include "io/frames.hpp"
-#include "io/history.hpp"
-#include "io/peak_memory.hpp"
-#include "io/probes.hpp"
 #include "io/progress.hpp"
-#include "io/tip_report.hpp"
+#include "io/recorder.hpp"
+#include "io/stop_request.hpp"
+#include "io/summarize.hpp"
+#include "kernels/time_step.hpp"
 
 namespace riven {
 
 namespace {
 
-/// The quantities of every run, then the grips, the tips of cracks, and the scene's probes.
+/// Gives the simulation the state of the checkpoint, where there is one.
 template <class Real>
-class Recorder {
- public:
-  Recorder(const std::filesystem::path& folder, const SimulationOf<Real>& m)
-      : m_(m), probes_(m), history_(folder / "history.csv", columns(m, probes_)) {}
+RunSoFar take_up(SimulationOf<Real>& m, const RunOptions& options) {
+  if (!options.restart)
+    return {};
+  RunSoFar so_far = options.restart->restore(m);
+  if (m.finished())
+    fail({Exit::bad_input, "the run has come further than this already", options.restart->path().string(),
+          "solver.time = " + format_time(m.scene.end_time), "more than " + format_time(m.state.clock.time)});
+  bring_frames(options.restart->path().parent_path(), options.folder, static_cast<int>(so_far.frames.size()));
+  return so_far;
+}
 
-  void row() {
-    const auto& s = m_.state;
-    const Energy& e = s.ledger.energy;
-    const Momentum& p = s.ledger.momentum;
-    std::vector<double> v{s.clock.time, s.clock.dt, e.kinetic,        e.strain,  e.external_work,
-                          e.damping,    e.contact,  e.numerical(),    p.error(), p.linear.x,
-                          p.linear.y,   p.angular,  p.angular_error()};
-    if (m_.plan.tractions)
-      v.insert(v.end(), {e.cohesive, e.debonding});
-    for (const ConstraintOwner& o : s.constraints.owners)
-      v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
-    if (m_.plan.growth)
-      v.push_back(e.fracture);
-    add_tip_values(s.tips, v);
-    for (const double q : probes_.read(m_))
-      v.push_back(q);
-    history_.row(v);
+/// A scene on its way into a folder. Members are made in their order: nothing in the folder is touched before the lock,
+/// and probes find their particles before those have moved.
+template <class Real>
+class Run {
+ public:
+  Run(SimulationOf<Real>& m, const RunOptions& options)
+      : m_(m),
+        options_(options),
+        lock_(options.folder),
+        probes_(m),
+        so_far_(take_up(m, options)),
+        checkpoints_(options.folder, m.scene.output, options.restart),
+        stop_(options.wall_limit) {
+    open_results();
   }
-  std::vector<Summary::Value> probes() const {
-    std::vector<Summary::Value> list;
-    const std::vector<HistoryColumn> columns = probes_.columns();
-    const std::vector<double> values = probes_.read(m_);
-    for (size_t i = 0; i < values.size(); ++i)
-      list.push_back({columns[i].name, values[i], columns[i].unit});
-    return list;
+
+  Summary all() {
+    while (const std::optional<Error> trouble = go_on()) {
+      if (so_far_.retries.size() >= static_cast<std::size_t>(m_.scene.limits.retries)) {
+        write_frame();
+        close("unstable", trouble->what());
+        throw *trouble;
+      }
+      go_back(*trouble);
+    }
+    write_frame();
+    return close("done", "");
   }
 
  private:
-  static std::vector<HistoryColumn> columns(const SimulationOf<Real>& m, const Probes& probes) {
-    std::vector<HistoryColumn> c{{"time", "s"},
-                                 {"dt", "s"},
-                                 {"kinetic", "J"},
-                                 {"strain", "J"},
-                                 {"external_work", "J"},
-                                 {"damping", "J"},
-                                 {"contact", "J"},
-                                 {"numerical", "J"},
-                                 {"momentum_error", ""},
-                                 {"momentum_x", "kg m/s"},
-                                 {"momentum_y", "kg m/s"},
-                                 {"angular_momentum", "kg m^2/s"},
-                                 {"angular_momentum_error", ""}};
-    if (m.plan.tractions)
-      c.insert(c.end(), {{"cohesive", "J"}, {"debonding", "J"}});
-    for (const ConstraintOwner& o : m.state.constraints.owners)
-      for (const auto& [what, unit] :
-           {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
-        c.push_back({o.name + " " + what, unit});
-    if (m.plan.growth)
-      c.push_back({"fracture", "J"});
-    for (const auto& more : {tip_columns(m.state.tips, m.state.cracks), probes.columns()})
-      c.insert(c.end(), more.begin(), more.end());
-    return c;
+  /// Opens the files of results with what the run has so far; what is in them beyond that is taken away.
+  void open_results() {
+    frames_.emplace(options_.folder, m_.scene, so_far_.frames);
+    record_.emplace(options_.folder, m_, probes_, so_far_.history);
+    so_far_.history.clear();  // is in the file, and may be large
+    if (m_.plan.growth || m_.plan.contact_waits || m_.scene.limits.retries > 0)
+      events_.emplace(options_.folder / "events.csv", m_.state.events, m_.state.cracks);
+    const Output& o = m_.scene.output;
+    const double interval = o.frames > 0 ? m_.scene.end_time / o.frames : m_.scene.end_time;
+    if (interval != so_far_.frame_interval)
+      so_far_.frames_due = frames_reached(interval);
+    so_far_.frame_interval = interval;
+    progress_.emplace(m_.state.clock.time, m_.scene.end_time, m_.state.particles.count(), options_.quiet);
   }
 
-  const SimulationOf<Real>& m_;
-  Probes probes_;
-  History history_;
-};
+  /// To the end of the run, or until a step goes wrong: why it is unstable.
+  std::optional<Error> go_on() {
+    try {
+      if (frames_->times().empty()) {
+        write_frame();
+        record_->row();
+      }
+      while (!m_.finished())
+        step();
+    } catch (const Error& e) {
+      progress_->finish();
+      if (e.code() != Exit::unstable)
+        throw;
+      return e;
+    }
+    progress_->finish();
+    return {};
+  }
 
-template <class Real>
-std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
-  std::vector<Summary::Warning> list;
-  const CrackFields& f = m.state.fields;
-  if (f.warning_both_sides > 0)
-    list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
-  if (f.warning_third_crack > 0)
-    list.push_back({"a node sees more than two cracks", f.warning_third_crack, f.warning_place[1]});
-  const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
-  if (capped > 0)
-    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, {}});
-  const FractureReport& j = m.fracture;
-  const auto say = [&](const char* kind, long count, Vec2 place) {
-    if (count > 0)
-      list.push_back({kind, count, place});
-  };
-  say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
-  say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
-  say("a J contour leaves the solid however small", j.unsound, j.place[2]);
-  return list;
-}
+  /// The state of the newest checkpoint, or else that in which the run began.
+  RunSoFar last_good() {
+    m_.begin();
+    if (checkpoints_.has_newest())
+      return find_checkpoint(options_.folder).restore(m_);
+    return options_.restart ? options_.restart->restore(m_) : RunSoFar{};
+  }
+
+  /// Takes up the last good state with smaller time steps. A checkpoint says so before any result is taken back:
+  /// however the run ends, what goes on from it goes on with these.
+  void go_back(const Error& e) {
+    const Clock failed = m_.state.clock;
+    RunSoFar back = last_good();
+    Clock& clock = m_.state.clock;
+    reduce_time_step(m_.scene.limits.retry_cfl, clock);
+    so_far_.retries.push_back({failed.step, failed.time, clock.step, m_.scene.cfl * clock.dt_factor, e.what()});
+    m_.state.events.push_back({.kind = CrackEvent::Kind::retry,
+                               .step = failed.step,
+                               .time = failed.time,
+                               .crack = -1,
+                               .place = e.trouble().place.value_or(Vec2{})});
+    const Retry& r = so_far_.retries.back();
+    fmt::print(stderr, "riven: warning: {}: {}\n  instead: back to step {}, CFL number {:.4g}; retry {} of {}\n",
+               e.trouble().where, e.trouble().what, r.back_to, r.cfl, so_far_.retries.size(), m_.scene.limits.retries);
+    back.wall_seconds = so_far_.wall_seconds;  // the time that was lost counts
+    back.retries = std::move(so_far_.retries);
+    so_far_ = std::move(back);
+    RunSoFar stored = so_far_;
+    stored.wall_seconds = wall_seconds();
+    timed(checkpoints, [&] { checkpoints_.write(m_, stored); });
+    open_results();
+  }
+
+  void step() {
+    const Clock& clock = m_.state.clock;
+    const double before = clock.time;
+    m_.step();
+    if (events_)
+      events_->write(m_.state.events, m_.state.cracks);
+    progress_->update(clock.step, clock.time, clock.dt, clock.limiter);
+    if (report_due(m_.scene, before, clock.time)) {
+      timed(monitors, [&] { m_.take_stock(); });
+      timed(history, [&] { record_->row(); });
+    }
+    if (m_.finished())
+      return;
+    if (reached() >= static_cast<double>(so_far_.frames_due) * so_far_.frame_interval) {
+      write_frame();
+      so_far_.frames_due = frames_reached(so_far_.frame_interval);
+    }
+    const bool stop = stop_.asked();
+    if (!stop && !checkpoints_.due(clock.step))
+      return;
+    if (m_.scene.limits.retries > 0)
+      require_good();
+    if (stop)
+      interrupt();
+    write_checkpoint();
+  }
+
+  /// Throws Error (unstable) when this is no state to go back to. Leaves it as it is.
+  void require_good() {
+    const Ledger before = m_.state.ledger;
+    timed(monitors, [&] { m_.take_stock(); });
+    m_.state.ledger = before;
+  }
+
+  double reached() const { return m_.state.clock.time * (1 + 1e-12); }
+  long frames_reached(double interval) const { return static_cast<long>(reached() / interval) + 1; }
+  double wall_seconds() const { return so_far_.wall_seconds + exec::Stopwatch::now() - start_; }
+
+  template <class F>
+  void timed(size_t which, const F& work) {
+    const double start = exec::Stopwatch::now();
+    work();
+    between_[which].seconds += exec::Stopwatch::now() - start;
+    ++between_[which].calls;
+  }
+
+  void write_frame() {
+    timed(frames, [&] { frames_->write(m_.state.clock.time, m_.state.particles, m_.state.cracks); });
+  }
+
+  void write_checkpoint() {
+    timed(checkpoints, [&] {
+      checkpoints_.write(m_, {wall_seconds(), frames_->times(), so_far_.frame_interval, so_far_.frames_due,
+                              record_->rows(), so_far_.retries});
+    });
+  }
+
+  /// The last frame is none of the checkpoint's: it is not one that a run without interruption has.
+  [[noreturn]] void interrupt() {
+    const std::string folder = options_.folder.string(), by = stop_.by();
+    write_checkpoint();
+    progress_->finish();
+    if (frames_->times().back() < m_.state.clock.time)
+      write_frame();
+    close("interrupted", "interrupted by " + by);
+    fail({Exit::interrupted, "the run was interrupted by " + by, folder,
+          fmt::format("{} of {}, step {}", format_time(m_.state.clock.time), format_time(m_.scene.end_time),
+                      m_.state.clock.step),
+          "", "riven run --restart " + folder});
+  }
+
+  Summary close(const char* status, const std::string& message) {
+    frames_->finish();
+    if (events_)
+      events_->write(m_.state.events, m_.state.cracks);
+    Summary s = summarize(m_, wall_seconds());
+    s.status = status;
+    s.message = message;
+    s.probes = record_->probes();
+    s.retries = so_far_.retries;
+    s.between_steps = between_;
+    write_summary(options_.folder / "summary.json", s);
+    return s;
+  }
+
+  SimulationOf<Real>& m_;
+  const RunOptions& options_;
+  const FolderLock lock_;
+  const Probes probes_;
+  RunSoFar so_far_;
+  CheckpointStore checkpoints_;
+  std::optional<FrameWriter> frames_;
+  std::optional<Recorder<Real>> record_;
+  std::optional<EventLog> events_;
+  std::optional<Progress> progress_;
+  StopRequest stop_;
+  double start_ = exec::Stopwatch::now();
+  enum : size_t { monitors, history, frames, checkpoints };
+  std::vector<Summary::Task> between_{
+      {"energy and momentum", "", 0, 0}, {"history", "", 0, 0}, {"frames", "", 0, 0}, {"checkpoints", "", 0, 0}};
+};
 
 }  // namespace
 
 template <class Real>
-Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
-  const auto& s = m.state;
-  const Energy& e = s.ledger.energy;
-  Summary out;
-  out.scene = m.scene.name;
-  out.title = m.scene.title;
-  out.steps = s.clock.step;
-  out.time = s.clock.time;
-  out.wall_seconds = wall_seconds;
-  out.particles = s.particles.count();
-  out.particle_steps_per_second = static_cast<double>(out.particles) * static_cast<double>(out.steps) / wall_seconds;
-  out.peak_memory_bytes = peak_memory();
-  out.threads = m.space.threads();
-  out.exec = exec::name(m.space.kind());
-  out.scatter = name_of(m.plan.scatter);
-  out.precision = name_of(m.scene.precision);
-  out.effects = m.plan.effects();
-  for (const TaskOf<Real>& t : m.tasks)
-    out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
-  out.energy = {e.kinetic, e.strain,   e.cohesive,  e.external_work, e.damping,
-                e.contact, e.fracture, e.debonding, e.numerical(),   e.relative_error()};
-  out.momentum_error = s.ledger.momentum.error();
-  out.angular_momentum_error = s.ledger.momentum.angular_error();
-  out.warnings = warnings(m);
-  out.tips = summarize_tips(s.tips, s.cracks);
-  out.cracks = summarize_cracks(s.cracks);
-  for (const ConstraintOwner& o : s.constraints.owners)
-    out.reactions.push_back({o.name, o.reaction});
-  return out;
-}
-
-template <class Real>
 Summary run_scene(SimulationOf<Real>& m, const RunOptions& options) {
-  const Scene& scene = m.scene;
-  const Clock& clock = m.state.clock;
-  make_folder(options.folder);
-  FrameWriter frames(options.folder, scene);
-  Recorder record(options.folder, m);
-  std::optional<EventLog> events;
-  if (m.plan.growth)
-    events.emplace(options.folder / "events.csv");
-  Progress progress(0, scene.end_time, m.state.particles.count(), options.quiet);
-  const double start = exec::Stopwatch::now();
-  const double frame_every = scene.output.frames > 0 ? scene.end_time / scene.output.frames : scene.end_time;
-
-  const auto close = [&](const char* status, const std::string& message) {
-    frames.write(clock.time, m.state.particles, m.state.cracks);
-    frames.finish();
-    if (events)
-      events->write(m.state.events, m.state.cracks);
-    Summary s = summarize(m, exec::Stopwatch::now() - start);
-    s.status = status;
-    s.message = message;
-    s.probes = record.probes();
-    write_summary(options.folder / "summary.json", s);
-    return s;
-  };
-
-  frames.write(0, m.state.particles, m.state.cracks);
-  record.row();
-  long written = 1;
-  try {
-    while (!m.finished()) {
-      const double before = clock.time;
-      m.step();
-      if (events)
-        events->write(m.state.events, m.state.cracks);
-      progress.update(clock.step, clock.time, clock.dt, clock.limiter);
-      const double reached = clock.time * (1 + 1e-12);
-      if (report_due(scene, before, clock.time)) {
-        m.take_stock();
-        record.row();
-      }
-      if (reached >= static_cast<double>(written) * frame_every && !m.finished()) {
-        frames.write(clock.time, m.state.particles, m.state.cracks);
-        written = static_cast<long>(reached / frame_every) + 1;
-      }
-    }
-  } catch (const Error& e) {
-    progress.finish();
-    if (e.code() == Exit::unstable)
-      close("unstable", e.what());
-    throw;
-  }
-  progress.finish();
-  return close("done", "");
+  return Run<Real>(m, options).all();
 }
 
-#define RIVEN_RUN(Real)                                          \
-  template Summary summarize(const SimulationOf<Real>&, double); \
-  template Summary run_scene(SimulationOf<Real>&, const RunOptions&);
-RIVEN_RUN(double)
-RIVEN_RUN(float)
-#undef RIVEN_RUN
+template Summary run_scene(SimulationOf<double>&, const RunOptions&);
+template Summary run_scene(SimulationOf<float>&, const RunOptions&);
 
 }  // namespace riven

@@ -7,7 +7,7 @@ namespace riven {
 
 namespace {
 
-constexpr int most_per_cell = 8;
+constexpr int most_per_cell = 16;
 
 Material read_material(const Table& t, size_t i) {
   Material m;
@@ -30,6 +30,11 @@ Body read_body(const Table& t, size_t i, const std::vector<std::string>& materia
   b.particles_per_cell = t.integer("particles_per_cell", 1, most_per_cell, b.particles_per_cell);
   b.thickness = t.quantity("thickness", dimension::length, range::positive, b.thickness, "solver.thickness");
   b.velocity = t.vector("velocity", dimension::speed, b.velocity);
+  b.velocity_field[0] = t.field("velocity_x", dimension::speed);
+  b.velocity_field[1] = t.field("velocity_y", dimension::speed);
+  for (const char* component : {"velocity_x", "velocity_y"})
+    if (t.has(component) && t.has("velocity"))
+      t.refuse(component, "the first velocity is said twice", "velocity, or velocity_x and velocity_y");
   b.spin = t.quantity("spin", dimension::angular_velocity, range::any, b.spin);
   return b;
 }
@@ -83,8 +88,9 @@ void read_bodies(const Table& root, Scene& s) {
   for (const Table& t : materials)
     s.materials.push_back(read_material(t, s.materials.size()));
   const auto names = names_of(s.materials);
-  for (const Table& t : root.tables("body", {"name", "material", "rectangle", "disk", "polygon", "holes",
-                                             "particles_per_cell", "thickness", "velocity", "spin"}))
+  for (const Table& t :
+       root.tables("body", {"name", "material", "rectangle", "disk", "polygon", "holes", "particles_per_cell",
+                            "thickness", "velocity", "velocity_x", "velocity_y", "spin"}))
     s.bodies.push_back(read_body(t, s.bodies.size(), names));
   for (const Table& t :
        root.tables("grip", {"name", "rectangle", "disk", "polygon", "particles_per_cell", "velocity_x", "velocity_y"}))

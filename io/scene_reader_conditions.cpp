@@ -29,26 +29,41 @@ SymmetryPlane read_symmetry(const Table& t, size_t i) {
   return p;
 }
 
+/// How a kind of load names its two components, and what they are.
+struct LoadKeys {
+  const char* component[2];
+  const Dimension& dimension;
+};
+
+LoadKeys keys_of(Load::Kind kind) {
+  switch (kind) {
+    case Load::Kind::force: return {{"force_x", "force_y"}, dimension::force};
+    case Load::Kind::traction: return {{"traction_x", "traction_y"}, dimension::stress};
+    case Load::Kind::acceleration: break;
+  }
+  return {{"acceleration_x", "acceleration_y"}, dimension::acceleration};
+}
+
 Load read_load(const Table& t, size_t i) {
   Load load;
   load.name = read_name(t, "load", i);
   load.kind = t.choice<Load::Kind>("kind");
   load.region = read_region(t);
-  const bool force = load.kind == Load::Kind::force;
-  const char* mine[2] = {force ? "force_x" : "traction_x", force ? "force_y" : "traction_y"};
-  const char* other[2] = {force ? "traction_x" : "force_x", force ? "traction_y" : "force_y"};
-  for (int axis = 0; axis < 2; ++axis) {
-    if (t.has(other[axis]))
-      t.refuse(other[axis], fmt::format("a load of kind {} has no such component", name_of(load.kind)),
-               fmt::format("{}, {}", mine[0], mine[1]), fmt::format("did you mean '{}'?", mine[axis]));
-    load.value[axis] = t.function(mine[axis], force ? dimension::force : dimension::stress).value_or(TimeFunction{});
-  }
-  if (!t.has(mine[0]) && !t.has(mine[1]))
-    t.refuse(nullptr, "the load has no value", fmt::format("{}, {} or both", mine[0], mine[1]));
-  if (force && t.has("edge"))
-    t.refuse("edge", "a force has no edge", "", "kind = \"traction\"");
-  if (!force)
+  const LoadKeys mine = keys_of(load.kind);
+  for (const auto& [kind, name] : Names<Load::Kind>::table)
+    for (const int axis : {0, 1})
+      if (const char* other = keys_of(kind).component[axis]; kind != load.kind && t.has(other))
+        t.refuse(other, fmt::format("a load of kind {} has no such component", name_of(load.kind)),
+                 fmt::format("{}, {}", mine.component[0], mine.component[1]),
+                 fmt::format("did you mean '{}'?", mine.component[axis]));
+  if (!t.has(mine.component[0]) && !t.has(mine.component[1]))
+    t.refuse(nullptr, "the load has no value", fmt::format("{}, {} or both", mine.component[0], mine.component[1]));
+  for (const int axis : {0, 1})
+    load.value[axis] = t.field(mine.component[axis], mine.dimension).value_or(Field{});
+  if (load.kind == Load::Kind::traction)
     load.edge = t.choice<Load::Edge>("edge");
+  else if (t.has("edge"))
+    t.refuse("edge", fmt::format("a load of kind {} has no edge", name_of(load.kind)), "", "kind = \"traction\"");
   return load;
 }
 
@@ -59,8 +74,9 @@ void read_conditions(const Table& root, Scene& s) {
     s.fixed.push_back(read_fix(t, s.fixed.size()));
   for (const Table& t : root.tables("symmetry", {"axis", "position", "solid"}))
     s.symmetry.push_back(read_symmetry(t, s.symmetry.size()));
-  for (const Table& t : root.tables("load", {"name", "kind", "rectangle", "disk", "polygon", "edge", "force_x",
-                                             "force_y", "traction_x", "traction_y"}))
+  for (const Table& t :
+       root.tables("load", {"name", "kind", "rectangle", "disk", "polygon", "edge", "force_x", "force_y", "traction_x",
+                            "traction_y", "acceleration_x", "acceleration_y"}))
     s.loads.push_back(read_load(t, s.loads.size()));
   const Table gravity = root.table("body_force", {"x", "y"});
   s.body_force[0] = gravity.function("x", dimension::acceleration);

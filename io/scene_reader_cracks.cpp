@@ -2,6 +2,7 @@
 
 #include "io/crack_file.hpp"
 #include "io/scene_reader.hpp"
+#include "io/text_file.hpp"
 
 namespace riven {
 
@@ -38,6 +39,7 @@ ContactSettings read_contact(const Table& t, const ContactSettings& outer) {
 }
 
 void read_rules(const Table& t, ContactRules& rules) {
+  rules.when = t.choice("when", std::optional(rules.when));
   rules.detection = t.choice("detection", std::optional(rules.detection));
   rules.v_sep = t.number("v_sep", range::positive, rules.v_sep);
   rules.v_contact = t.number("v_contact", range::positive, rules.v_contact);
@@ -48,9 +50,11 @@ void read_rules(const Table& t, ContactRules& rules) {
 
 /// The cracks of a file, each named after the entry and its row.
 void read_rows(const Table& t, const CrackLine& like, Scene& s) {
-  const std::filesystem::path file = t.text("file");
+  const std::string file = t.text("file"), where = t.where("file");
   const std::string path = (std::filesystem::path(s.source_path).parent_path() / file).string();
-  for (const CrackRow& row : read_crack_file(path, t.where("file"))) {
+  if (!s.files.contains(file))
+    s.files[file] = read_text_file(path, "the crack file", where);
+  for (const CrackRow& row : parse_crack_file(s.files[file], path, where)) {
     CrackLine crack = like;
     crack.name += "_" + row.label;
     crack.points = {row.from, row.to};
@@ -63,7 +67,7 @@ void read_rows(const Table& t, const CrackLine& like, Scene& s) {
 
 void read_cracks(const Table& root, Scene& s) {
   const Table contact = root.table(
-      "contact", {"law", "friction", "normal_stiffness", "shear_stiffness", "detection", "v_sep", "v_contact"});
+      "contact", {"law", "friction", "normal_stiffness", "shear_stiffness", "detection", "v_sep", "v_contact", "when"});
   s.contact = read_contact(contact, s.contact);
   read_rules(contact, s.contact_rules);
   s.growth = read_growth(root);

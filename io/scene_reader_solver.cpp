@@ -4,10 +4,20 @@ namespace riven {
 
 namespace {
 
+constexpr int most_retries = 1000;
+
 void read_grid(const Table& root, Scene& s) {
   const Table t = root.table("grid", {"cell", "lower", "upper"});
   s.cell = t.quantity("cell", dimension::length, range::positive);
   s.grid = {t.vector("lower", dimension::length), t.vector("upper", dimension::length)};
+}
+
+void read_limits(const Table& root, Limits& l) {
+  const Table t = root.table("limits", {"energy_growth", "retries", "retry_cfl"});
+  l.energy_growth = t.number("energy_growth", range::positive, l.energy_growth);
+  l.retries = t.integer("retries", 0, most_retries, l.retries);
+  if (l.retries > 0 || t.has("retry_cfl"))
+    l.retry_cfl = t.number("retry_cfl", Range{0, 1, true, true}, l.retry_cfl);
 }
 
 }  // namespace
@@ -34,8 +44,7 @@ void read_solver(const Table& root, Scene& s) {
   s.exec = t.choice("exec", std::optional(s.exec));
   s.threads = t.integer("threads", 0, 4096, s.threads);
   read_grid(root, s);
-  s.limits.energy_growth =
-      root.table("limits", {"energy_growth"}).number("energy_growth", range::positive, s.limits.energy_growth);
+  read_limits(root, s.limits);
 }
 
 }  // namespace riven

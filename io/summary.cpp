@@ -76,16 +76,34 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["tasks"] = list(s.tasks, [](const Summary::Task& t) {
     return Json{{"label", t.label}, {"effect", t.effect}, {"calls", t.calls}, {"seconds", number(t.seconds)}};
   });
+  j["between_steps"] = list(s.between_steps, [](const Summary::Task& t) {
+    return Json{{"label", t.label}, {"calls", t.calls}, {"seconds", number(t.seconds)}};
+  });
   const Summary::Energy& e = s.energy;
-  j["energy"] = {{"kinetic", number(e.kinetic)},     {"strain", number(e.strain)},
-                 {"cohesive", number(e.cohesive)},   {"external_work", number(e.external_work)},
-                 {"damping", number(e.damping)},     {"contact", number(e.contact)},
-                 {"fracture", number(e.fracture)},   {"debonding", number(e.debonding)},
-                 {"numerical", number(e.numerical)}, {"relative_error", number(e.relative_error)}};
+  j["energy"] = {{"kinetic", number(e.kinetic)},
+                 {"strain", number(e.strain)},
+                 {"cohesive", number(e.cohesive)},
+                 {"external_work", number(e.external_work)},
+                 {"damping", number(e.damping)},
+                 {"contact", number(e.contact)},
+                 {"fracture", number(e.fracture)},
+                 {"debonding", number(e.debonding)},
+                 {"capture", number(e.capture)},
+                 {"numerical", number(e.numerical)},
+                 {"transfer", number(e.transfer)},
+                 {"largest", number(e.largest)},
+                 {"relative_error", number(e.relative_error)}};
   j["momentum_error"] = number(s.momentum_error);
   j["angular_momentum_error"] = number(s.angular_momentum_error);
   j["warnings"] = by_name(s.warnings, &Summary::Warning::kind, [](const Summary::Warning& w) {
     return Json{{"count", w.count}, {"first_place", w.count > 0 ? point(w.first_place) : Json(nullptr)}};
+  });
+  j["retries"] = list(s.retries, [](const Retry& r) {
+    return Json{{"step", r.step},
+                {"time", number(r.time)},
+                {"back_to_step", r.back_to},
+                {"cfl", number(r.cfl)},
+                {"message", r.message}};
   });
   j["tips"] = list(s.tips, [](const Summary::Tip& t) {
     return Json{{"crack", t.crack},         {"end", t.end},           {"state", t.state},

@@ -6,6 +6,7 @@
 
 #include "core/math/vec.hpp"
 #include "core/state/cracks.hpp"
+#include "io/retry.hpp"
 
 namespace riven {
 
@@ -20,8 +21,11 @@ struct Summary {
   struct Energy {
     double kinetic = 0, strain = 0, cohesive = 0, external_work = 0, damping = 0, contact = 0;  ///< J
     double fracture = 0, debonding = 0;                                                         ///< J
+    double capture = 0;         ///< J, lost as bodies were caught by prescribed motion
     double numerical = 0;       ///< J, gained (+) or lost (-) by the scheme
-    double relative_error = 0;  ///< |numerical| over the largest energy of the run
+    double transfer = 0;        ///< J, the part of that loss that PIC, XPIC and FMPM take
+    double largest = 0;         ///< J, largest energy or work of the run
+    double relative_error = 0;  ///< numerical + transfer, what is left unexplained, over the largest
   };
   struct Warning {
     std::string kind;
@@ -70,9 +74,11 @@ struct Summary {
   std::string exec, scatter, precision;
   std::vector<std::string> effects;
   std::vector<Task> tasks;
+  std::vector<Task> between_steps;  ///< monitors and output, since the run began or was taken up again
   Energy energy;
   double momentum_error = 0, angular_momentum_error = 0;
   std::vector<Warning> warnings;
+  std::vector<Retry> retries;
   std::vector<Tip> tips;
   std::vector<Value> probes;
   std::vector<Crack> cracks;

@@ -6,11 +6,25 @@
 
 namespace riven {
 
+namespace {
+
+std::size_t shown_tips(const std::vector<Tip>& tips) {
+  return std::min(tips.size(), most_tip_columns);
+}
+
+std::string name_of(const Tip& tip, const Cracks& cracks) {
+  return cracks.names[static_cast<std::size_t>(tip.crack)] + " " + end_name(tip.last) + " ";
+}
+
+}  // namespace
+
 std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Cracks& cracks) {
   std::vector<HistoryColumn> columns;
-  for (std::size_t i = 0; i < std::min(tips.size(), most_tip_columns); ++i) {
-    const std::string tip = cracks.names[static_cast<std::size_t>(tips[i].crack)] + " " + end_name(tips[i].last) + " ";
-    columns.insert(columns.end(), {{tip + "length", "m"},
+  for (std::size_t i = 0; i < shown_tips(tips); ++i) {
+    const std::string tip = name_of(tips[i], cracks);
+    columns.insert(columns.end(), {{tip + "x", "m"},
+                                   {tip + "y", "m"},
+                                   {tip + "length", "m"},
                                    {tip + "J", "J/m^2"},
                                    {tip + "K_I", "Pa m^0.5"},
                                    {tip + "K_II", "Pa m^0.5"},
@@ -19,11 +33,27 @@ std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Crack
   return columns;
 }
 
-void add_tip_values(const std::vector<Tip>& tips, std::vector<double>& row) {
-  for (std::size_t i = 0; i < std::min(tips.size(), most_tip_columns); ++i) {
+void add_tip_values(const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row) {
+  for (std::size_t i = 0; i < shown_tips(tips); ++i) {
     const Tip& t = tips[i];
-    row.insert(row.end(), {t.length, t.J, t.K_I, t.K_II, t.speed});
+    const Vec2 x = cracks.plane[cracks.end_point(t.crack, t.last)];
+    row.insert(row.end(), {x.x, x.y, t.length, t.J, t.K_I, t.K_II, t.speed});
   }
+}
+
+std::vector<HistoryColumn> reading_columns(const FractureReading& reading, const std::vector<Tip>& tips,
+                                           const Cracks& cracks) {
+  std::vector<HistoryColumn> columns;
+  for (std::size_t i = 0; i < shown_tips(tips); ++i) {
+    const std::string tip = name_of(tips[i], cracks) + reading.name + " ";
+    columns.insert(columns.end(), {{tip + "J", "J/m^2"}, {tip + "K_I", "Pa m^0.5"}, {tip + "K_II", "Pa m^0.5"}});
+  }
+  return columns;
+}
+
+void add_reading_values(const std::vector<Tip>& tips, std::vector<double>& row) {
+  for (std::size_t i = 0; i < shown_tips(tips); ++i)
+    row.insert(row.end(), {tips[i].J, tips[i].K_I, tips[i].K_II});
 }
 
 std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cracks& cracks) {

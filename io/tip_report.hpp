@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "core/scene/scene.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/tips.hpp"
 #include "io/history.hpp"
@@ -18,7 +19,12 @@ inline const char* end_name(bool last) {
 
 std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Cracks& cracks);
 /// What the columns say now.
-void add_tip_values(const std::vector<Tip>& tips, std::vector<double>& row);
+void add_tip_values(const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row);
+
+/// J and K of one of the scene's readings: "crack last NAME J".
+std::vector<HistoryColumn> reading_columns(const FractureReading& reading, const std::vector<Tip>& tips,
+                                           const Cracks& cracks);
+void add_reading_values(const std::vector<Tip>& tips, std::vector<double>& row);
 
 std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cracks& cracks);
 

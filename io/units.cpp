@@ -216,6 +216,12 @@ std::optional<std::string> squared(std::string_view u) {
 
 }  // namespace
 
+std::optional<double> plain_number(std::string_view text) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(x) : std::nullopt;
+}
+
 double parse_quantity(std::string_view text, const Dimension& d) {
   const Split s = split(text, d);
   check_digits(s.unit, text, d);
@@ -226,6 +232,18 @@ double parse_quantity(std::string_view text, const Dimension& d) {
   if (!known_unit(s.unit))
     refuse("unknown unit '" + s.unit + "'", text, d, hint);
   refuse("'" + s.unit + "' is not a unit of " + d.name, text, d, hint);
+}
+
+double parse_any_quantity(std::string_view text) {
+  using namespace dimension;
+  static const Dimension any{"some dimension", "", {"mm", "ms", "m/s", "GPa", "kg/m^3"}};
+  const Split s = split(text, any);
+  check_digits(s.unit, text, any);
+  for (const Dimension* d : {&time, &length, &area, &speed, &acceleration, &stress, &density, &force, &rate,
+                             &interface_stiffness, &energy_release, &stress_optic})
+    if (const auto by = factor(s.unit, d->si))
+      return scaled(s.number, *by, text, any);
+  refuse(known_unit(s.unit) ? "no quantity has the unit '" + s.unit + "'" : "unknown unit '" + s.unit + "'", text, any);
 }
 
 double parse_toughness(std::string_view text) {

@@ -1,5 +1,6 @@
 // Physical quantities written as text with a unit, converted to SI and checked for dimension (UDUNITS-2).
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,12 @@ inline const Dimension stress_optic{"stress-optic constant", "1/Pa", {"1/MPa", "
 /// logarithm are refused. Throws Error (bad_input, `where` left empty) when the text is not a finite number followed by
 /// a unit of that dimension.
 double parse_quantity(std::string_view text, const Dimension& d);
+
+/// A quantity of any of the dimensions above, in its SI unit; errors as parse_quantity.
+double parse_any_quantity(std::string_view text);
+
+/// The number that is the whole text, where it is one.
+std::optional<double> plain_number(std::string_view text);
 
 /// "0.5 MPa m^0.5", "0.5 MPa sqrt(m)", "16 N/mm^1.5" -> Pa m^0.5. Half powers are allowed and the dimension is
 /// checked through the square of the unit. Errors as parse_quantity.

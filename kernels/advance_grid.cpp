@@ -73,6 +73,20 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
     for (int f = 1; f < slots.count(c.node); ++f)
       if (mass[slots.of(c.node, f)] > 0)
         sums += one(slots.of(c.node, f), lattice.position(c.node));
+  // Damping acted on what grips had made of velocities, which they hand to the accelerations later.
+  const Constraints& c = s.constraints;
+  for (long n = 0; n < c.list.size() && damping != 0; ++n)
+    for (int f = 0; f < slots.count(c.list[n].node); ++f) {
+      const long slot = slots.of(c.list[n].node, f);
+      const auto carried = [&](int axis) {
+        return c.list[n].owner[axis] >= c.first_grip() ? c.change[0][slots.component(n, f, axis)] : 0;
+      };
+      const Vec2 more = -damping * dt * Vec2{carried(0), carried(1)};
+      const Vec2 after{q[4 * slot], q[4 * slot + 1]}, a{q[4 * slot + 2], q[4 * slot + 3]};
+      sums.damping_impulse += more;
+      sums.damping_work -= dot(more, after - 0.5 * dt * a);
+      sums.damping_torque += cross(lattice.position(c.list[n].node), more);
+    }
   return sums;
 }
 

@@ -29,11 +29,11 @@ void advance_grid(const exec::Space&, State<Real, 2>&, bool from_velocity, doubl
 template <class Real>
 GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double damping);
 
-/// Masses below this are rounding remains, not matter: far below 1e-12 of any momentum. In float more of them are, and
-/// their inverses must not overflow.
+/// Masses below this are rounding remains, not matter: a node that a particle gives the part s^2 of its mass bears the
+/// part s of its force. In float more of them are, and their inverses must not overflow.
 template <class Real>
 double mass_cutoff(const State<Real, 2>& s) {
-  return (sizeof(Real) == sizeof(double) ? 1e-20 : 1e-16) * s.particle_mass;
+  return (sizeof(Real) == sizeof(double) ? 1e-24 : 1e-16) * s.particle_mass;
 }
 
 }  // namespace riven

@@ -1,10 +1,13 @@
 #include "kernels/apply_loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/exec/parallel.hpp"
 #include "kernels/block.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
@@ -46,31 +49,99 @@ void load_edge(const Scene& scene, const State<Real, 2>& s, const Load& load, Lo
   }
 }
 
+/// The particles of the load's region, and what each carries of a force (the same part) or feels of an acceleration
+/// (its mass).
+template <class Real>
+void load_region(const Particles<Real, 2>& p, const Load& load, LoadGroup& group) {
+  const bool force = load.kind == Load::Kind::force;
+  for (long i = 0; i < p.count(); ++i)
+    if (contains(load.region, {p.x[0][i], p.x[1][i]})) {
+      group.id.push_back(p.id[i]);
+      group.share.push_back(force ? 1 : double(p.mass[i]));
+    }
+  if (force)
+    for (double& share : group.share)
+      share = 1 / static_cast<double>(group.id.size());
+}
+
+/// Fields must be numbers where they act: at the start, in the middle and at the end of the run.
+void check_values(const Scene& scene, const Load& load, const LoadGroup& g) {
+  for (const double t : {0.0, 0.5 * scene.end_time, scene.end_time})
+    for (const Field& f : g.value) {
+      const std::vector<double> v = f.at(t, g.first);
+      const auto bad = std::find_if(v.begin(), v.end(), [](double x) { return !std::isfinite(x); });
+      if (bad == v.end())
+        continue;
+      const auto i = static_cast<size_t>(bad - v.begin());
+      fail({Exit::bad_input, "the load is not a number everywhere", "load \"" + load.name + "\"",
+            fmt::format("{} at ({:.6g}, {:.6g}) m, {:.6g} s", *bad, g.first.X[i], g.first.Y[i], t),
+            "finite wherever it acts", ""});
+    }
+}
+
+/// What each particle of the group bears at a time, N.
+void find_forces(const exec::Space& space, const LoadGroup& g, double t, Vec2* force) {
+  if (g.first.count() == 0) {
+    const Vec2 all{g.value[0](t), g.value[1](t)};
+    for (size_t k = 0; k < g.id.size(); ++k)
+      force[k] = g.share[k] * all;
+    return;
+  }
+  constexpr long block = 512;
+  const long n = g.first.count();
+  exec::parallel_tasks(space, "loads", (n + block - 1) / block, [&](long b) {
+    double v[2][block] = {};
+    const long first = b * block, count = std::min(block, n - first);
+    for (const int axis : {0, 1})
+      g.value[axis].at(t, count, g.first.X.data() + first, g.first.Y.data() + first, v[axis]);
+    for (long k = 0; k < count; ++k)
+      force[first + k] = g.share[static_cast<size_t>(first + k)] * Vec2{v[0][k], v[1][k]};
+  });
+}
+
+/// Spreads the force of the particle at x to the nodes of its field.
+template <class Shape, class Real>
+void spread(State<Real, 2>& s, const FieldSlots& slots, long i, Vec2 x, Vec2 force) {
+  const Lattice& l = s.grid.lattice;
+  const DomainSetting<Real, 2>& d = s.domains[s.particles.body[i]];
+  const auto a = Shape::axis((x.x - l.origin.x) / l.h, d.axis[0]);
+  const auto b = Shape::axis((x.y - l.origin.y) / l.h, d.axis[1]);
+  const std::uint32_t word = s.fields.extra.empty() ? 0 : s.fields.fields[i];
+  for (int j = 0; j < Shape::width; ++j)
+    for (int m = 0; m < Shape::width; ++m) {
+      const int node = (b.base + j) * l.nx + a.base + m;
+      Real* q = s.grid.q.data() + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + m));
+      q[2] += Real(force.x) * a.s[m] * b.s[j];
+      q[3] += Real(force.y) * a.s[m] * b.s[j];
+    }
+}
+
 }  // namespace
 
 template <class Real>
 void make_loads(const Scene& scene, State<Real, 2>& s) {
   const auto& p = s.particles;
+  size_t total = 0;
   for (const Load& load : scene.loads) {
     LoadGroup g;
     g.value[0] = load.value[0];
     g.value[1] = load.value[1];
-    if (load.kind == Load::Kind::traction) {
+    if (load.kind == Load::Kind::traction)
       load_edge(scene, s, load, g);
-    } else {
-      for (long i = 0; i < p.count(); ++i)
-        if (contains(load.region, {p.x[0][i], p.x[1][i]}))
-          g.id.push_back(p.id[i]);
-      g.share.assign(g.id.size(), g.id.empty() ? 0 : 1.0 / static_cast<double>(g.id.size()));
-    }
+    else
+      load_region(p, load, g);
     if (g.id.empty())
       fail({Exit::bad_input, "the load finds no particle in its region", "load \"" + load.name + "\"", "",
             "a region that holds particle centres", "make the region a cell larger"});
+    if (load.value[0].places || load.value[1].places) {
+      for (const int id : g.id)  // particles are not sorted yet: each is at the place of its id
+        g.first.add({p.x[0][id], p.x[1][id]});
+      check_values(scene, load, g);
+    }
+    total += g.id.size();
     s.loads.groups.push_back(std::move(g));
   }
-  size_t total = 0;
-  for (const LoadGroup& g : s.loads.groups)
-    total += g.id.size();
+  s.loads.force.resize(total);
   s.loads.applied_at.resize(total);
   s.loads.position.resize(static_cast<size_t>(p.count()));
   for (long i = 0; i < p.count(); ++i)
@@ -78,30 +149,19 @@ void make_loads(const Scene& scene, State<Real, 2>& s) {
 }
 
 template <class Real>
-void apply_loads(const Plan& plan, State<Real, 2>& s) {
-  const Lattice& l = s.grid.lattice;
-  const FieldSlots slots(s.fields, l.nodes());
+void apply_loads(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const auto& p = s.particles;
   size_t n = 0;
   with_shape(plan.shape, [&](auto shape) {
     using Shape = typename decltype(shape)::type;
     for (const LoadGroup& g : s.loads.groups) {
-      const Vec2 total{g.value[0](s.clock.time), g.value[1](s.clock.time)};
-      for (size_t k = 0; k < g.id.size(); ++k, ++n) {
-        const long i = s.loads.position[static_cast<size_t>(g.id[k])];
-        const Vec2 force = g.share[k] * total, x{p.x[0][i], p.x[1][i]};
-        const DomainSetting<Real, 2>& d = s.domains[p.body[i]];
-        const auto a = Shape::axis((x.x - l.origin.x) / l.h, d.axis[0]);
-        const auto b = Shape::axis((x.y - l.origin.y) / l.h, d.axis[1]);
-        const std::uint32_t word = s.fields.extra.empty() ? 0 : s.fields.fields[i];
-        for (int j = 0; j < Shape::width; ++j)
-          for (int m = 0; m < Shape::width; ++m) {
-            const int node = (b.base + j) * l.nx + a.base + m;
-            Real* q = s.grid.q.data() + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + m));
-            q[2] += Real(force.x) * a.s[m] * b.s[j];
-            q[3] += Real(force.y) * a.s[m] * b.s[j];
-          }
-        s.loads.applied_at[n] = x;
+      find_forces(space, g, s.clock.middle(), s.loads.force.data() + n);
+      for (const int id : g.id) {
+        const long i = s.loads.position[static_cast<size_t>(id)];
+        const Vec2 force = s.loads.force[n], x{p.x[0][i], p.x[1][i]};
+        spread<Shape>(s, slots, i, x, force);
+        s.loads.applied_at[n++] = x;
         s.ledger.momentum.impulse += s.clock.dt * force;
         s.ledger.momentum.torque_impulse += s.clock.dt * cross(x, force);
       }
@@ -113,19 +173,17 @@ template <class Real>
 void settle_loads(State<Real, 2>& s) {
   const auto& p = s.particles;
   size_t n = 0;
-  for (const LoadGroup& g : s.loads.groups) {
-    const Vec2 total{g.value[0](s.clock.time), g.value[1](s.clock.time)};
-    for (size_t k = 0; k < g.id.size(); ++k, ++n) {
-      const long i = s.loads.position[static_cast<size_t>(g.id[k])];
+  for (const LoadGroup& g : s.loads.groups)
+    for (const int id : g.id) {
+      const long i = s.loads.position[static_cast<size_t>(id)];
       const Vec2 move = Vec2{p.x[0][i], p.x[1][i]} - s.loads.applied_at[n];
-      s.ledger.energy.external_work += dot(g.share[k] * total, move);
+      s.ledger.energy.external_work += dot(s.loads.force[n++], move);
     }
-  }
 }
 
-#define RIVEN_APPLY_LOADS(Real)                            \
-  template void make_loads(const Scene&, State<Real, 2>&); \
-  template void apply_loads(const Plan&, State<Real, 2>&); \
+#define RIVEN_APPLY_LOADS(Real)                                                \
+  template void make_loads(const Scene&, State<Real, 2>&);                     \
+  template void apply_loads(const exec::Space&, const Plan&, State<Real, 2>&); \
   template void settle_loads(State<Real, 2>&);
 RIVEN_APPLY_LOADS(double)
 RIVEN_APPLY_LOADS(float)

@@ -1,4 +1,5 @@
-// Forces on chosen particles: f_ij += sum f_p S_ip (Nairn 2003, eq. 28), into the fields that the particle sees.
+// Forces on chosen particles: f_ij += sum f_p S_ip (Nairn 2003, eq. 28), into the fields that the particle sees. A step
+// takes them as they are in its middle, so that their impulse is of second order in the step.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
@@ -6,13 +7,13 @@
 namespace riven {
 
 /// Finds the particles of each [[load]] and their shares; bodies are as laid out at the start.
-/// Throws Error (bad input) for a load that finds no particle.
+/// Throws Error (bad input) for a load that finds no particle, or is not finite somewhere.
 template <class Real>
 void make_loads(const Scene&, State<Real, 2>&);
 
 /// Adds the forces of this step to Grid::q and books their impulse.
 template <class Real>
-void apply_loads(const Plan&, State<Real, 2>&);
+void apply_loads(const exec::Space&, const Plan&, State<Real, 2>&);
 
 /// Books the work that the forces did while their particles moved.
 template <class Real>

@@ -27,31 +27,31 @@ void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
 bool hold_cracks(CrackFields& fields, long f) {
   NodeCracks& node = fields.nodes[f];
   const int first = fields.candidate_start[f], last = fields.candidate_start[f + 1];
-  int most[2] = {-1, -1}, count[2] = {0, 0};
+  const auto crossings = [&](int c) { return fields.tally[2 * c] + fields.tally[2 * c + 1]; };
+  int most[most_held] = {}, found = 0;  // candidates, by falling number of crossings
   for (int c = first; c < last; ++c) {
-    const int n = fields.tally[2 * c] + fields.tally[2 * c + 1];
-    if (n > count[0]) {
-      most[1] = most[0];
-      count[1] = count[0];
-      most[0] = c;
-      count[0] = n;
-    } else if (n > count[1]) {
-      most[1] = c;
-      count[1] = n;
-    }
+    if (crossings(c) == 0)
+      continue;
+    int at = found;
+    while (at > 0 && crossings(most[at - 1]) < crossings(c))
+      --at;
+    if (at == most_held)
+      continue;
+    found = std::min(found + 1, most_held);
+    std::copy_backward(most + at, most + found - 1, most + found);
+    most[at] = c;
   }
-  if (most[1] >= 0 && most[1] < most[0])
-    std::swap(most[0], most[1]);
   NodeCracks now;
   now.node = node.node;
   now.extra = node.extra;
   now.sees = node.sees;
+  now.third = node.third;
   bool changed = false;
   int held = 0;
   for (int c = first; c < last; ++c) {
     const int above = 2 * c, below = above + 1;
-    std::uint8_t means[2] = {third_crack, third_crack};
-    if (held < 2 && c == most[held]) {
+    std::uint8_t means[2] = {fourth_crack, fourth_crack};
+    if (std::find(most, most + found, c) != most + found) {
       const bool from_above = fields.tally[above] >= fields.tally[below];
       now.crack[held] = fields.candidate[c];
       now.side[held] = from_above ? Side::above : Side::below;
@@ -96,7 +96,7 @@ void set_fields(CrackFields& fields, long marked, long first, long last) {
       fields.fields[p] |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * r.neighbour);
       crossing[lane / exec::lanes] |= static_cast<std::uint16_t>(1u << (lane % exec::lanes));
     } else {
-      ++tile.warnings[verdict == third_crack];
+      ++tile.warnings[verdict == fourth_crack];
     }
   });
 }
@@ -147,7 +147,7 @@ Vec2 first_warning(const CrackFields& fields, const Particles<Real, 2>& particle
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
     each_record(fields, m, start[0], start[1], [&](long p, const CrossingRecord& r) {
       const std::pair<int, int> here{particles.id[p], r.neighbour};
-      if (fields.verdict[r.entry] != (kind == 0 ? other_side : third_crack) || !(here < first))
+      if (fields.verdict[r.entry] != (kind == 0 ? other_side : fourth_crack) || !(here < first))
         return;
       first = here;
       node = fields.nodes[r.node].node;
@@ -171,6 +171,7 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
     }
     fields.normals[f] = {};
   });
+  fields.third_normals.zero();
   exec::parallel_tasks(space, "assign fields", cracks.count(),
                        [&](long c) { add_normals(lattice, cracks, static_cast<int>(c), fields); });
   exec::parallel_for(space, "assign fields", fields.nodes.size(),
@@ -186,7 +187,7 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
     if (fields.tiles[m].changed)
       set_slots<Shape>(lattice, fields, m, start[0], start[1]);
   });
-  long* const total[2] = {&fields.warning_both_sides, &fields.warning_third_crack};
+  long* const total[2] = {&fields.warning_both_sides, &fields.warning_fourth_crack};
   for (int kind = 0; kind < 2; ++kind) {
     long count = 0;
     for (const TileTrace& t : fields.tiles)

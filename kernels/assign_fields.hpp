@@ -1,10 +1,11 @@
 // Assign: from the crossings of all pairs, the cracks that each node holds, and the field v(p,i) of each pair.
 //
-// A node holds the two cracks with most crossings (ties to the lower number, as neither the number of a crack nor the
+// A node holds the three cracks with most crossings (ties to the lower number, as neither the number of a crack nor the
 // order of the particles may matter otherwise). The side from which more pairs cross is opposite to the node's (tie:
-// above). Field = 1 (crosses the first) + 2 (crosses the second). Two kinds of crossings count as none and are warned
-// of (Nairn et al., appendix): 1, from the other side; 2, of a crack that the node does not hold. The paper allocates
-// fields in order of arrival; up to two cracks this gives the same fields, 1 and 2 possibly swapped.
+// above). Field = 1 (crosses the first) + 2 (crosses the second) + 4 (crosses the third). Two kinds of crossings count
+// as none and are warned of (Nairn et al., appendix): 1, from the other side; 2, of a crack that the node does not
+// hold. The paper has two cracks at a node and allocates fields in order of arrival; up to two cracks this gives the
+// same fields, 1 and 2 possibly swapped.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/bodies.hpp"

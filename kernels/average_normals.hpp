@@ -58,13 +58,16 @@ inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, Cra
           const int f = fields.node_index[(y.base + j) * lattice.nx + x.base + i];
           if (f < 0)
             continue;
-          const int* const held = fields.nodes[f].crack;
-          const int m = held[1] == c;
-          if (held[m] != c)
-            continue;
+          const NodeCracks& held = fields.nodes[f];
+          const int m = held.crack[1] == c;
           const double weight = x.s[i] * y.s[j];
-          fields.normals[f].now[m] += weight * n;
-          fields.normals[f].first[m] += weight * n0;
+          if (held.crack[m] == c) {
+            fields.normals[f].now[m] += weight * n;
+            fields.normals[f].first[m] += weight * n0;
+          } else if (held.crack[2] == c) {
+            fields.third_normals[held.third].now += weight * n;
+            fields.third_normals[held.third].first += weight * n0;
+          }
         }
     }
   }
@@ -76,9 +79,10 @@ inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f,
   const NodeCracks& node = fields.nodes[f];
   NodeNormals& normals = fields.normals[f];
   for (int m = 0; m < fields.held[f]; ++m) {
+    Vec2& now = m < 2 ? normals.now[m] : fields.third_normals[node.third].now;
+    Vec2& of_first = m < 2 ? normals.first[m] : fields.third_normals[node.third].first;
     const double least = 1e-9 * lattice.h;
-    if (!(dot(normals.now[m], normals.now[m]) > least * least &&
-          dot(normals.first[m], normals.first[m]) > least * least)) {
+    if (!(dot(now, now) > least * least && dot(of_first, of_first) > least * least)) {
       int c = fields.candidate_start[f];
       while (fields.candidate[c] != node.crack[m])
         ++c;
@@ -87,11 +91,11 @@ inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f,
       const int* list = fields.node_segment.data();
       const int k = *std::min_element(list + fields.segment_start[c], list + fields.segment_start[c + 1],
                                       [&](int a, int b) { return far(a) < far(b); });
-      normals.now[m] = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
-      normals.first[m] = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
+      now = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
+      of_first = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
     }
-    normals.now[m] = detail::unit(normals.now[m]);
-    normals.first[m] = detail::unit(normals.first[m]);
+    now = detail::unit(now);
+    of_first = detail::unit(of_first);
   }
 }
 

@@ -66,22 +66,22 @@ void find_bridge(const State<Real, 2>& state, const Tip& tip, TipBridge& bridge)
       if (s <= front - 2 || std::fabs(cross(r, t)) > beside)
         continue;
       const NodeCracks& n = fields.nodes[at];
-      const int m = n.crack[1] == tip.crack;
-      if (n.crack[m] != tip.crack)
+      const int m = n.which(tip.crack);
+      if (m < 0)
         continue;
       const auto slot = [&](int field) { return field == 0 ? long{node} : long{l.nodes()} + n.extra + field - 1; };
-      // on either side of another crack that the node holds
-      for (const int beyond : {0, n.crack[1 - m] < 0 ? 0 : 2 >> m}) {
+      // on either side of the other cracks that the node holds
+      for (int beyond = 0; beyond < n.fields(); ++beyond) {
+        if (beyond & 1 << m)
+          continue;
         const long near = slot(beyond), across = slot(beyond | 1 << m);
         if (!(state.grid.mass[near] > 0) || !(state.grid.mass[across] > 0))
           continue;
         const bool near_above = n.side[m] == Side::below;
         const double at_faces = felt(half_opening(cracks, tip, t, -s * l.h) / l.h, std::fabs(cross(r, t)));
         if (bridge.count < TipBridge::most)
-          bridge.pair[bridge.count++] = {node, near_above ? near : across, near_above ? across : near,
+          bridge.pair[bridge.count++] = {node, at, near_above ? near : across, near_above ? across : near,
                                          s > front - 1 ? share_at(s) / at_faces : -at_faces};
-        if (n.crack[1 - m] < 0)
-          break;
       }
     }
 }
@@ -90,9 +90,10 @@ void find_bridge(const State<Real, 2>& state, const Tip& tip, TipBridge& bridge)
 template <class Real, ContactStage stage>
 class Bridging {
  public:
-  explicit Bridging(State<Real, 2>& s) : motion_(s.grid), dt_(s.clock.dt) {}
+  Bridging(State<Real, 2>& s, FieldImpulses& impulses)
+      : motion_(s.grid), notes_(impulses, s.grid.lattice), nodes_(s.fields.nodes.data()), dt_(s.clock.dt) {}
 
-  double across(TipBridge& bridge) {
+  void across(TipBridge& bridge) {
     Vec2 behind, sum;
     double mass = 0, all = 0, at_faces = 0;
     for (int k = 0; k < bridge.count; ++k) {
@@ -112,42 +113,40 @@ class Bridging {
       }
     }
     if (!(mass > 0))
-      return 0;
+      return;
     at_faces /= mass;
     const Vec2 W = (behind + at_faces * sum) * (1 / (mass + at_faces * at_faces * all));
     const Vec2 shift = W - behind * (1 / mass);
-    double work = 0;
     for (int k = 0; k < bridge.count; ++k) {
       BridgedPair& p = bridge.pair[k];
       const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : (at_faces * p.share) * W - jump_[k]);
       if constexpr (stage == ContactStage::after)
         p.force = impulse * (1 / dt_);
-      work += push(p.above, impulse) + push(p.below, -impulse);
+      push(p, p.above, impulse);
+      push(p, p.below, -impulse);
     }
-    return work;
   }
 
  private:
-  double push(long slot, Vec2 impulse) {
+  void push(const BridgedPair& p, long slot, Vec2 impulse) {
     const Vec2 velocity = (motion_.momentum_of(slot) + impulse) * (1 / double(motion_.mass[slot]));
-    const double work = 0.5 * dot(impulse, motion_.first_velocity(slot, dt_) + velocity);
     motion_.change(slot, impulse, velocity, dt_);
-    return work;
+    notes_.add(stage, p.flagged, nodes_[p.flagged], slot, impulse);
   }
 
   FieldMotion<Real, stage> motion_;
+  ImpulseNotes notes_;
+  const NodeCracks* nodes_;
   double dt_;
   Vec2 jump_[TipBridge::most];
   double reduced_[TipBridge::most];
 };
 
 template <ContactStage stage, class Real>
-double run(State<Real, 2>& s, std::vector<TipBridge>& bridges) {
-  Bridging<Real, stage> bridging(s);
-  double work = 0;
+void run(State<Real, 2>& s, std::vector<TipBridge>& bridges, FieldImpulses& impulses) {
+  Bridging<Real, stage> bridging(s, impulses);
   for (TipBridge& bridge : bridges)
-    work += bridging.across(bridge);
-  return work;
+    bridging.across(bridge);
 }
 
 }  // namespace
@@ -165,19 +164,18 @@ void list_bridges(const exec::Space& space, const State<Real, 2>& s, std::vector
 }
 
 template <class Real>
-double bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactStage stage) {
+void bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactStage stage, FieldImpulses& impulses) {
   switch (stage) {
-    case ContactStage::before: return run<ContactStage::before>(s, bridges);
-    case ContactStage::after: return run<ContactStage::after>(s, bridges);
-    case ContactStage::again: return run<ContactStage::again>(s, bridges);
-    case ContactStage::higher: return run<ContactStage::higher>(s, bridges);
+    case ContactStage::before: return run<ContactStage::before>(s, bridges, impulses);
+    case ContactStage::after: return run<ContactStage::after>(s, bridges, impulses);
+    case ContactStage::again: return run<ContactStage::again>(s, bridges, impulses);
+    case ContactStage::higher: return run<ContactStage::higher>(s, bridges, impulses);
   }
-  return 0;
 }
 
 #define RIVEN_BRIDGE_TIPS(Real)                                                                   \
   template void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&); \
-  template double bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage);
+  template void bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage, FieldImpulses&);
 RIVEN_BRIDGE_TIPS(double)
 RIVEN_BRIDGE_TIPS(float)
 #undef RIVEN_BRIDGE_TIPS

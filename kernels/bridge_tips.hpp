@@ -33,13 +33,14 @@
 
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
-#include "kernels/field_motion.hpp"
+#include "kernels/field_impulses.hpp"
 
 namespace riven {
 
 /// Two velocity fields of a node on either side of a tip's crack.
 struct BridgedPair {
   int node;
+  int flagged;        ///< position in CrackFields::nodes
   long above, below;  ///< slots
   double share;       ///< lambda / phi, or -phi for a node behind
   Vec2 force{};       ///< N, on the field above, in the momentum update
@@ -56,8 +57,8 @@ struct TipBridge {
 template <class Real>
 void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&);
 
-/// Changes their motion, one tip after the other. Returns the work done on the fields, J (negative: lost).
+/// Changes their motion, one tip after the other, and notes the impulses.
 template <class Real>
-double bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage);
+void bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage, FieldImpulses&);
 
 }  // namespace riven

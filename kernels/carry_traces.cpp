@@ -127,13 +127,13 @@ class Carrier {
     NodeCracks& node = f_.nodes[n];
     const int first = f_.candidate_start[n], last = f_.candidate_start[n + 1], former = was_.node_index[node.node];
     for (int e = 2 * first; e < 2 * last; ++e)
-      f_.verdict[e] = third_crack;
+      f_.verdict[e] = fourth_crack;
     f_.recount[n] = former < 0;
     f_.clearance[n] = NodeClearance{};
     f_.clearance[n].travel = -std::numeric_limits<double>::max();  // to be measured
     if (former < 0)
       return;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < most_held; ++k) {
       node.crack[k] = was_.nodes[former].crack[k];
       node.side[k] = was_.nodes[former].side[k];
     }

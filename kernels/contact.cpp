@@ -10,8 +10,6 @@
 namespace riven {
 
 ContactReport& ContactReport::operator+=(const ContactReport& o) {
-  work += o.work;
-  interface_work += o.interface_work;
   touching += o.touching;
   apart += o.apart;
   early += o.early;
@@ -29,9 +27,17 @@ struct Detection {
   double v_sep, v_contact;
   NodeSums<Real> sums;
   const NodeNormals* normals;
+  const ThirdNormal* third_normals;
   const ContactArea* area;
+  long flagged;
   double reach;  ///< m, gap beyond which nothing touches (displacement)
 };
+
+/// An impulse is more than what rounding makes of faces that move as one.
+RIVEN_INLINE bool acts(Vec2 impulse, double sum_of_momenta) {
+  constexpr double rounding = 1e-10;
+  return norm(impulse) > rounding * sum_of_momenta;
+}
 
 enum class Touch { none, apart, bonds, sticks, pulls, pushes };
 
@@ -69,24 +75,24 @@ RIVEN_INLINE Verdict judge(const Detection<Real>& found, const long* slot, const
 }
 
 /// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
-/// search for a common solution.
+/// search for a common solution. Does it act?
 template <class Real, ContactStage stage>
-RIVEN_INLINE void one_contact(const FieldMotion<Real, stage>& motion, const Detection<Real>& found, double dt,
-                              const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
-                              ContactReport& report) {
+RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const ImpulseNotes& notes,
+                              const Detection<Real>& found, double dt, const NodeCracks& n, long index,
+                              const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
   const long slot[2] = {n.node, long{lattice.nodes()} + n.extra};
   const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
   if (!(mass[0] > 0) || !(mass[1] > 0))
-    return;
-  const Meeting m = neighbour_meeting(n, found.normals[index], laws, 0, 0, 1);
+    return false;
+  const Meeting m = neighbour_meeting(n, {found.normals + index, nullptr}, laws, 0, 0, 1);
   if (m.law.law == ContactLaw::ignored)
-    return;
+    return false;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const int a = m.above, b = m.below;
   const double closing = dot(mass[b] * momentum[a] - mass[a] * momentum[b], m.normal);
   if (closing <= 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
     ++report.apart;  // faces that part do not touch, whatever their gap
-    return;
+    return false;
   }
   const double inverse[2] = {1 / mass[0], 1 / mass[1]};
   const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
@@ -95,7 +101,7 @@ RIVEN_INLINE void one_contact(const FieldMotion<Real, stage>& motion, const Dete
   const double* area = found.sums.volume;
   const double volume = area ? relative_volume(lattice, n.node, area[slot[0]] + area[slot[1]]) : 1;
   const Verdict v = judge(found, slot, mass, dt, m, volume);
-  const double tiny = ContactNode::tolerance * (norm(momentum[0]) + norm(momentum[1]));
+  const double momenta = norm(momentum[0]) + norm(momentum[1]), tiny = ContactNode::tolerance * momenta;
   Vec2 velocity[2], impulse[2];
   bool touches = false;
   if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced * un > tiny)) {
@@ -113,36 +119,39 @@ RIVEN_INLINE void one_contact(const FieldMotion<Real, stage>& motion, const Dete
   }
   ++(touches ? report.touching : report.apart);
   if (!touches)
-    return;
+    return false;
   if (v.touch != Touch::bonds) {
     report.penetration = std::max(report.penetration, -v.gap);
     report.gap = std::max(report.gap, v.gap);
     report.early += volume < found.v_sep;
   }
-  double work = 0;
   for (int f = 0; f < 2; ++f) {
-    work += 0.5 * dot(impulse[f], motion.first_velocity(slot[f], dt) + velocity[f]);
     motion.change(slot[f], impulse[f], velocity[f], dt);
+    notes.add(stage, index, n, slot[f], impulse[f]);
   }
-  report.work += work;
+  return acts(impulse[0], momenta);
 }
 
-/// The contacts of a node with several meetings, from its slots to its slots.
-template <class Real, ContactStage stage>
+/// The contacts of a node that holds so many cracks at most and may have several meetings, from its slots to its slots.
+template <int cracks, class Real, ContactStage stage>
 struct NodeContact {
+  using Node = ContactNodeOf<cracks>;
+  using Outcome = ContactOutcomeOf<cracks>;
+  static constexpr int most_pairs = Node::most_pairs;
+
   const FieldMotion<Real, stage>& motion;
+  const ImpulseNotes& notes;
   const Detection<Real>& found;
   const double dt;
-  const ContactArea* area = nullptr;
-  ContactNode node{};
-  long slot[ContactNode::fields] = {};
-  Meeting pair[ContactNode::most_pairs] = {};  ///< the meeting behind each of node.pair
-  double gap[ContactNode::most_pairs] = {};
-  double stick_gap[ContactNode::most_pairs] = {};
+  Node node{};
+  long slot[Node::fields] = {};
+  Meeting pair[most_pairs] = {};  ///< the meeting behind each of node.pair
+  double gap[most_pairs] = {};
+  double stick_gap[most_pairs] = {};
   ContactReport report{};
 
   RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice) {
-    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+    for (int f = 0; f < n.fields(); ++f) {
       slot[f] = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
       node.mass[f] = motion.mass[slot[f]];
       if (node.mass[f] > 0)
@@ -192,7 +201,7 @@ struct NodeContact {
     }
   }
 
-  RIVEN_INLINE void detect(const Meetings& meetings, double relative_volume) {
+  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume) {
     for (const Meeting& m : meetings)
       if (m.law.law == ContactLaw::bonded)
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
@@ -204,14 +213,13 @@ struct NodeContact {
   /// Velocity of a group of fields before the step's forces.
   RIVEN_INLINE Vec2 first_velocity(int f) const {
     Vec2 p;
-    for (int g = 0; g < ContactNode::fields; ++g)
+    for (int g = 0; g < Node::fields; ++g)
       if (node.mass[g] > 0 && node.together(f, g))
         p += node.mass[g] * motion.first_velocity(slot[g], dt);
     return p * (1 / node.group_mass(f));
   }
 
-  RIVEN_INLINE void respond(ContactPair& p, const Meeting& m) const {
-    const ContactArea& a = area[m.k];
+  RIVEN_INLINE void respond(ContactPair& p, const Meeting& m, const ContactArea& a) const {
     const double factor = m.share * a.area * dt * dt / node.reduced_mass(m.above, m.below);
     const double across = factor * m.law.normal_stiffness, along = factor * m.law.shear_stiffness;
     if constexpr (stage == ContactStage::after) {
@@ -224,23 +232,14 @@ struct NodeContact {
     }
   }
 
-  /// Work of one pair on its fields: its impulse times the mean of the velocities before and after.
-  RIVEN_INLINE double work(const ContactOutcome& out, int k) const {
-    const Vec2 n = pair[k].normal, impulse = out.lambda[k] * n + out.tau[k] * turned(n);
-    const auto mean = [&](int f) { return 0.5 * (first_velocity(f) + out.velocity[f]); };
-    return dot(impulse, mean(pair[k].below) - mean(pair[k].above));
-  }
-
-  RIVEN_INLINE void tally(const ContactOutcome& out, double relative_volume) {
+  RIVEN_INLINE void tally(const Outcome& out, double relative_volume) {
     report.capped += !out.converged;
     bool touched = false;
     for (int k = 0; k < node.pairs; ++k) {
       const bool push = out.lambda[k] != 0 || out.tau[k] != 0;
       report.touching += push;
-      if (pair[k].law.law == ContactLaw::interface) {
-        report.interface_work += work(out, k);
+      if (pair[k].law.law == ContactLaw::interface)
         continue;
-      }
       report.apart += !push;
       touched = touched || push;
       if (push) {
@@ -258,40 +257,59 @@ struct NodeContact {
     report.early = touched && relative_volume < found.v_sep;
   }
 
-  RIVEN_INLINE void run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
+  /// Does any of them act?
+  RIVEN_INLINE bool run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
     load(n, lattice);
-    const Meetings meetings = find_meetings(n, found.normals[index], node.mass, laws);
+    const Meetings<cracks> meetings =
+        find_meetings<cracks>(n, held_normals<cracks>(n, index, found.normals, found.third_normals), node.mass, laws);
     if (meetings.count == 0)
-      return;
-    if (found.area)
-      area = found.area + 2 * index;
+      return false;
     double volume = 1;
     found.sums.ask(index, n);
     if (found.sums.volume) {
       volume = 0;
-      for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
+      for (int f = 0; f < n.fields(); ++f)
         volume += found.sums.volume[slot[f]];
       volume = relative_volume(lattice, n.node, volume);
     }
     detect(meetings, volume);
     for (int k = 0; k < node.pairs; ++k)
       if (pair[k].law.law == ContactLaw::interface)
-        respond(node.pair[k], pair[k]);
-    const ContactOutcome out = solve(node);
+        respond(node.pair[k], pair[k], found.area[entry_of(n, index, pair[k].k, found.flagged)]);
+    const Outcome out = solve(node);
     tally(out, volume);
-    for (int f = 0; f < ContactNode::fields; ++f) {
+    double momenta = 0;
+    for (int f = 0; f < Node::fields; ++f)
+      momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
+    bool acting = false;
+    for (int f = 0; f < Node::fields; ++f) {
       if (!out.changed[f])
         continue;
-      report.work += 0.5 * dot(out.impulse[f], motion.first_velocity(slot[f], dt) + out.velocity[f]);
       motion.change(slot[f], out.impulse[f], out.velocity[f], dt);
+      notes.add(stage, index, n, slot[f], out.impulse[f]);
+      acting = acting || acts(out.impulse[f], momenta);
     }
+    return acting;
   }
 };
 
+/// The contacts of a node that holds three cracks: rare, and kept out of the way of the others.
+template <class Real, ContactStage stage>
+RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, const ImpulseNotes& notes,
+                             const Detection<Real>& found, double dt, const NodeCracks& n, long index,
+                             const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
+  NodeContact<3, Real, stage> here{motion, notes, found, dt};
+  const bool acting = here.run(n, index, lattice, laws);
+  report += here.report;
+  return acting;
+}
+
 template <ContactStage stage, class Real>
 void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-         const Detection<Real>& found, double dt, std::uint8_t* touched, ContactReport& report) {
+         const Detection<Real>& found, double dt, std::uint8_t* touched, FieldImpulses& impulses,
+         ContactReport& report) {
   const FieldMotion<Real, stage> motion(grid);
+  const ImpulseNotes notes(impulses, grid.lattice);
   const NodeCracks* nodes = fields.nodes.data();
   const std::uint8_t* held = fields.held.data();
   const ContactSettings* laws = cracks.contact.data();
@@ -310,16 +328,18 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
     if (held[i] == 0)
       return;
     const NodeCracks& n = nodes[i];
-    const long before = sum.touching;
+    bool acting = false;
     if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
-      one_contact(motion, found, dt, n, i, lattice, laws, sum);
+      acting = one_contact(motion, notes, found, dt, n, i, lattice, laws, sum);
+    } else if (held[i] > 2) {
+      acting = three_cracks(motion, notes, found, dt, n, i, lattice, laws, sum);
     } else {
-      NodeContact<Real, stage> here{motion, found, dt};
-      here.run(n, i, lattice, laws);
+      NodeContact<2, Real, stage> here{motion, notes, found, dt};
+      acting = here.run(n, i, lattice, laws);
       sum += here.report;
     }
     if (touched)
-      touched[i] = sum.touching > before;
+      touched[i] = acting;
   });
 }
 
@@ -328,7 +348,7 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
 template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
-             ContactSums& sums, ContactReport& report) {
+             ContactSums& sums, FieldImpulses& impulses, ContactReport& report) {
   const auto any = [&](auto&& which) { return std::any_of(cracks.contact.begin(), cracks.contact.end(), which); };
   const bool interfaces = any([](const ContactSettings& c) { return c.law == ContactLaw::interface; });
   const bool parting = any([](const ContactSettings& c) {
@@ -338,33 +358,40 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
   const bool by_position = parting && rules.detection == ContactDetection::displacement;
   const bool positions = sums.place.size() == 4L * grid.slots(), volumes = sums.volume.size() == grid.slots();
   if ((by_position && !positions) || (by_volume && !volumes) ||
-      (interfaces && sums.area.size() != 2 * fields.nodes.size()))
+      (interfaces && sums.area.size() != 2 * fields.nodes.size() + fields.third_normals.size()) ||
+      impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
   const Detection<Real> found{.by = rules.detection,
                               .v_sep = rules.v_sep,
                               .v_contact = rules.v_contact,
                               .sums = node_sums(of, grid.lattice, fields, sums),
                               .normals = fields.normals.data(),
+                              .third_normals = fields.third_normals.data(),
                               .area = sums.area.data(),
+                              .flagged = fields.nodes.size(),
                               .reach = 0.2 * grid.lattice.h};
   switch (stage) {
     case ContactStage::before:
-      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, nullptr, report);
+      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, nullptr, impulses,
+                                       report);
     case ContactStage::after:
       sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
       sums.touched.zero();
       return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt,
-                                      sums.keep_touched ? sums.touched.data() : nullptr, report);
+                                      sums.keep_touched ? sums.touched.data() : nullptr, impulses, report);
     case ContactStage::again:
-      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, nullptr, report);
+      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, nullptr, impulses,
+                                      report);
     case ContactStage::higher:
-      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, nullptr, report);
+      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, nullptr, impulses,
+                                       report);
   }
 }
 
 #define RIVEN_CONTACT(Real)                                                                                      \
   template void contact(const exec::Space&, Grid<Real>&, const CrackFields&, const Cracks&, const ContactRules&, \
-                        ContactStage, double, const ContactParticles<Real>&, ContactSums&, ContactReport&);
+                        ContactStage, double, const ContactParticles<Real>&, ContactSums&, FieldImpulses&,       \
+                        ContactReport&);
 RIVEN_CONTACT(double)
 RIVEN_CONTACT(float)
 #undef RIVEN_CONTACT

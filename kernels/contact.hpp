@@ -1,9 +1,11 @@
 // Contact between the fields of every node that a crack passes (laws: core/laws/contact.hpp, solution of a node:
-// core/laws/contact_node.hpp). With A and B the node's cracks, field = 1 (crosses A) + 2 (crosses B):
-//   pairs (0,1) and (2,3) meet across A with A's normal, (0,2) and (1,3) across B with B's (J.A. Nairn and Y.E. Aimene,
-//   Modeling Multiple Crack Propagation in the Material Point Method, section 2.1.3); fields that differ on both cracks
-//   with none between them, (0,3) or (1,2), meet with the sum of both normals, each turned to point from the one to the
-//   other, and the stricter of the two laws.
+// core/laws/contact_node.hpp). With A, B and C the node's cracks, field = 1 (crosses A) + 2 (crosses B) + 4 (crosses
+// C):
+//   fields that differ by 1 meet across A with A's normal, by 2 across B with B's and by 4 across C with C's (of two
+//   cracks: J.A. Nairn and Y.E. Aimene, Modeling Multiple Crack Propagation in the Material Point Method, section
+//   2.1.3); fields that differ on several cracks with none between them, such as (0,3) without 1 and 2, or (0,7)
+//   without all others, meet with the sum of these cracks' normals, each turned to point from the one to the other, and
+//   the strictest of their laws.
 //
 // Detection, for laws whose faces may part (stick, frictionless, Coulomb):
 //   volume        apart if V_rel < V_sep, held together if V_rel > V_contact, by velocity between (J.A. Nairn, CMES 4
@@ -23,9 +25,8 @@
 // the accelerations by dv/dt, so that bonded fields move their particles as one field would (Nairn and Aimene,
 // section 2.1.3). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the
 // stage `after`, where v - a dt is the velocity before the forces and a all other forces; adding F = impulse/dt to the
-// forces would give the same v and a. The work of the impulses is taken with the mean of the velocities before and
-// after, in `after` with the velocity before the forces: a force that contact only balances moves nothing and contact
-// takes no energy. In the other stages an interface only keeps together what it is too stiff to let go.
+// forces would give the same v and a. In the other stages an interface only keeps together what it is too stiff to let
+// go.
 #pragma once
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"
@@ -33,22 +34,30 @@
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
 #include "kernels/contact_sums.hpp"
+#include "kernels/field_impulses.hpp"
 #include "kernels/field_motion.hpp"
 
 namespace riven {
 
 /// What contact did, summed over nodes in a fixed order.
 struct ContactReport {
-  double work = 0;            ///< J, of the impulses on the fields (negative: taken by contact)
-  double interface_work = 0;  ///< J, the part of it that interface tractions did (stored or given back)
-  long touching = 0;          ///< pairs of fields that pushed or held each other
-  long apart = 0;             ///< pairs whose faces may part and did not touch
-  long early = 0;             ///< nodes that touched although V_rel < V_sep (where volumes were summed)
-  long capped = 0;            ///< nodes whose pairs were not solved within the limit of sweeps
-  double penetration = 0;     ///< m, largest -delta_n of a touching pair (displacement)
-  double gap = 0;             ///< m, largest delta_n at which a pair pushed (displacement)
+  long touching = 0;       ///< pairs of fields that pushed or held each other
+  long apart = 0;          ///< pairs whose faces may part and did not touch
+  long early = 0;          ///< nodes that touched although V_rel < V_sep (where volumes were summed)
+  long capped = 0;         ///< nodes whose pairs were not solved within the limit of sweeps
+  double penetration = 0;  ///< m, largest -delta_n of a touching pair (displacement)
+  double gap = 0;          ///< m, largest delta_n at which a pair pushed (displacement)
 
   ContactReport& operator+=(const ContactReport& o);
+};
+
+/// Contact that waits for faces to close (contact.when = "auto").
+struct ContactWatch {
+  bool on = true;       ///< contact acts in this step
+  bool closed = false;  ///< faces have been seen to touch, not long ago
+  long last = 0;        ///< step in which they were seen last,
+  Vec2 place;           ///< m, at this node
+  int crack = -1;       ///< of this crack
 };
 
 /// Applies contact to all flagged nodes; adds to the report. `sums` as contact_sums() prepared them, of what the
@@ -57,6 +66,6 @@ struct ContactReport {
 template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
-             ContactSums& sums, ContactReport& report);
+             ContactSums& sums, FieldImpulses& impulses, ContactReport& report);
 
 }  // namespace riven

@@ -9,77 +9,110 @@
 
 namespace riven {
 
-/// Two fields that meet across one crack, or diagonally across both.
+/// Two fields that meet across one crack, or diagonally across several.
 struct Meeting {
   int above, below;
-  int k;                 ///< the crack at the node (0 or 1) whose law holds
+  int k;                 ///< the crack at the node (0, 1 or 2) whose law holds
   Vec2 normal, normal0;  ///< now and at the first position, from `above` to `below`
   ContactSettings law;
   double share;  ///< of the node's part of crack k that lies between these two fields
 };
 
+/// Those of a node that holds so many cracks at most.
+template <int cracks>
 struct Meetings {
-  Meeting list[ContactNode::most_pairs];
+  Meeting list[most_pairs_of(cracks)];
   int count = 0;
   const Meeting* begin() const { return list; }
   const Meeting* end() const { return list + count; }
 };
 
-/// Fields f and f + 2^k, which meet across crack k alone.
-RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, const NodeNormals& w, const ContactSettings* laws, int k,
-                                       int f, double share) {
-  const int g = f + (1 << k);
-  const bool crossing_above = n.side[k] == Side::above;
-  return {crossing_above ? g : f, crossing_above ? f : g, k, w.now[k], w.first[k], laws[n.crack[k]], share};
+/// Normals of all cracks that a node holds. `third` is not read where there is none.
+struct HeldNormals {
+  const NodeNormals* two;
+  const ThirdNormal* third;
+  RIVEN_INLINE Vec2 now(int k) const { return k < 2 ? two->now[k] : third->now; }
+  RIVEN_INLINE Vec2 first(int k) const { return k < 2 ? two->first[k] : third->first; }
+};
+
+/// Normals of a node that holds so many cracks at most, and is entry `index` of CrackFields::nodes.
+template <int cracks>
+RIVEN_INLINE HeldNormals held_normals(const NodeCracks& n, long index, const NodeNormals* two,
+                                      const ThirdNormal* third) {
+  return {two + index, cracks > 2 ? third + n.third : nullptr};
 }
 
-/// Fields that differ on both cracks and have none between them.
-RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, const NodeNormals& w, const ContactSettings* laws, int f,
-                                      int g) {
-  const ContactSettings &a = laws[n.crack[0]], &b = laws[n.crack[1]];
-  const int k = stricter(b, a) ? 1 : 0;
-  Vec2 normal[2], normal0[2];
-  for (int c = 0; c < 2; ++c) {
-    const bool crosses = f & (1 << c), crossing_above = n.side[c] == Side::above;
-    const double sign = crosses == crossing_above ? 1 : -1;  // +1: f lies above crack c and g below
-    normal[c] = sign * w.now[c];
-    normal0[c] = sign * w.first[c];
+/// Fields f and f + 2^k, which meet across crack k alone.
+RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, HeldNormals w, const ContactSettings* laws, int k, int f,
+                                       double share) {
+  const int g = f + (1 << k);
+  const bool crossing_above = n.side[k] == Side::above;
+  return {crossing_above ? g : f, crossing_above ? f : g, k, w.now(k), w.first(k), laws[n.crack[k]], share};
+}
+
+/// Fields that differ on several cracks, from k = 0 on, and have none between them.
+template <int cracks>
+RIVEN_INLINE Meeting diagonal_meeting(const NodeCracks& n, HeldNormals w, const ContactSettings* laws, int f, int g,
+                                      double share) {
+  int strictest = -1;
+  Vec2 sum, sum0, normal, normal0;
+  for (int k = 0; k < cracks; ++k) {
+    if (((f ^ g) >> k & 1) == 0)
+      continue;
+    const bool crosses = f & (1 << k), crossing_above = n.side[k] == Side::above;
+    const double sign = crosses == crossing_above ? 1 : -1;  // +1: f lies above crack k and g below
+    const Vec2 now = sign * w.now(k), first = sign * w.first(k);
+    sum += now;
+    sum0 += first;
+    if (strictest >= 0 && !stricter(laws[n.crack[k]], laws[n.crack[strictest]]))
+      continue;
+    strictest = k;
+    normal = now;
+    normal0 = first;
   }
-  Vec2 sum = normal[0] + normal[1], sum0 = normal0[0] + normal0[1];
-  if (norm(sum) < 1e-6 || norm(sum0) < 1e-6) {  // both cracks are parallel and f and g lie outside of them
-    sum = normal[k];
-    sum0 = normal0[k];
+  if (norm(sum) < 1e-6 || norm(sum0) < 1e-6) {  // the cracks are parallel and f and g lie outside of them
+    sum = normal;
+    sum0 = normal0;
   }
-  return {f, g, k, sum * (1 / norm(sum)), sum0 * (1 / norm(sum0)), k == 1 ? b : a, 1};
+  return {f, g, strictest, sum * (1 / norm(sum)), sum0 * (1 / norm(sum0)), laws[n.crack[strictest]], share};
+}
+
+/// Whether fields f < g differ on several cracks and none of those that lie on the side of one or the other of each of
+/// these is present.
+template <int cracks, class Present>
+RIVEN_INLINE bool meet_diagonally(int f, int g, const Present& present) {
+  const int across = f ^ g;
+  if ((across & (across - 1)) == 0 || !present(f) || !present(g))
+    return false;
+  for (int h = 0; h < 1 << cracks; ++h)
+    if (((h ^ f) & ~across) == 0 && h != f && h != g && present(h))
+      return false;
+  return true;
 }
 
 /// All meetings of a node's fields; `mass` is 0 where a field is absent.
-RIVEN_INLINE Meetings find_meetings(const NodeCracks& n, const NodeNormals& w,
-                                    const double (&mass)[ContactNode::fields], const ContactSettings* laws) {
-  Meetings m;
+template <int cracks>
+RIVEN_INLINE Meetings<cracks> find_meetings(const NodeCracks& n, HeldNormals w, const double (&mass)[1 << cracks],
+                                            const ContactSettings* laws) {
+  constexpr int fields = 1 << cracks;
+  Meetings<cracks> m;
   const auto present = [&](int f) { return mass[f] > 0; };
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < cracks; ++k) {
     if (n.crack[k] < 0)
       continue;
-    const int first = m.count;
-    double total = 0;
-    for (int f : {0, k == 0 ? 2 : 1}) {
-      const int g = f + (1 << k);
-      if (!present(f) || !present(g))
-        continue;
-      const double both = mass[f] + mass[g];
-      total += both;
-      m.list[m.count++] = neighbour_meeting(n, w, laws, k, f, both);
-    }
-    for (int i = first; i < m.count; ++i)
-      m.list[i].share /= total;
+    for (int f = 0; f < fields; ++f)
+      if (const int g = f + (1 << k); (f >> k & 1) == 0 && present(f) && present(g))
+        m.list[m.count++] = neighbour_meeting(n, w, laws, k, f, mass[f] + mass[g]);
   }
-  if (n.crack[0] < 0 || n.crack[1] < 0)
-    return m;
-  if (present(0) && present(3) && !present(1) && !present(2))
-    m.list[m.count++] = diagonal_meeting(n, w, laws, 0, 3);
-  if (present(1) && present(2) && !present(0) && !present(3))
-    m.list[m.count++] = diagonal_meeting(n, w, laws, 1, 2);
+  for (int f = 0; f < fields && n.crack[1] >= 0; ++f)
+    for (int g = f + 1; g < fields; ++g)
+      if (meet_diagonally<cracks>(f, g, present))
+        m.list[m.count++] = diagonal_meeting<cracks>(n, w, laws, f, g, mass[f] + mass[g]);
+  double total[cracks] = {};
+  for (const Meeting& one : m)
+    total[one.k] += one.share;
+  for (int i = 0; i < m.count; ++i)
+    m.list[i].share /= total[m.list[i].k];
   return m;
 }
 

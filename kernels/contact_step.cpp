@@ -1,5 +1,8 @@
 #include "kernels/contact_step.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "kernels/interface_jumps.hpp"
 
 namespace riven {
@@ -11,14 +14,10 @@ ContactParticles<Real> particles(const SimulationOf<Real>& m) {
   return {m.plan.shape, m.state.particles, m.state.domains, m.state.specific_area, m.state.watch.drift};
 }
 
-/// One stage; `reaches_particles` is the part of its change in energy that the particles take over.
 template <class Real>
-void stage(SimulationOf<Real>& m, ContactStage at, ContactReport& report, double reaches_particles) {
-  ContactReport now;
+void stage(SimulationOf<Real>& m, ContactStage at, ContactReport& report) {
   contact(m.space, m.state.grid, m.state.fields, m.state.cracks, m.scene.contact_rules, at, m.state.clock.dt,
-          particles(m), m.contact_sums, now);
-  m.state.ledger.energy.contact -= reaches_particles * now.work;
-  report += now;
+          particles(m), m.contact_sums, m.impulses, report);
 }
 
 }  // namespace
@@ -32,30 +31,60 @@ void sum_for_contact(SimulationOf<Real>& m) {
 
 template <class Real>
 void contact_before_update(SimulationOf<Real>& m) {
-  stage(m, ContactStage::before, m.contact_before, m.early_impulse());
+  stage(m, ContactStage::before, m.contact_before);
 }
 template <class Real>
 void contact_after_update(SimulationOf<Real>& m) {
-  stage(m, ContactStage::after, m.contact_after, 1);
+  stage(m, ContactStage::after, m.contact_after);
   if (m.plan.contact_area)
     advance_jumps(m.space, m.plan.shape, m.state.domains, m.state.grid, m.state.fields, m.state.clock.dt,
                   m.state.cracks);
 }
 template <class Real>
 void contact_on_high(SimulationOf<Real>& m) {
-  stage(m, ContactStage::higher, m.contact_after, 1);
+  stage(m, ContactStage::higher, m.contact_after);
 }
 template <class Real>
 void contact_after_extrapolation(SimulationOf<Real>& m) {
-  stage(m, ContactStage::again, m.contact_again, 0);
+  stage(m, ContactStage::again, m.contact_again);
 }
 
-#define RIVEN_TASKS(Real)                                   \
-  template void sum_for_contact(SimulationOf<Real>&);       \
-  template void contact_before_update(SimulationOf<Real>&); \
-  template void contact_after_update(SimulationOf<Real>&);  \
-  template void contact_on_high(SimulationOf<Real>&);       \
-  template void contact_after_extrapolation(SimulationOf<Real>&);
+template <class Real>
+void watch_contact(SimulationOf<Real>& m) {
+  constexpr double cells = 2;       // that a wave runs between two tries
+  constexpr long quiet_tries = 10;  // before contact waits again
+  ContactWatch& w = m.contact_watch;
+  const Clock& c = m.state.clock;
+  const long between = std::max(1L, std::lround(cells / m.scene.cfl));
+  const auto log = [&](CrackEvent::Kind kind) {
+    m.state.events.push_back({.kind = kind, .step = c.step, .time = c.time + c.dt, .crack = w.crack, .place = w.place});
+  };
+  if (w.on) {
+    const auto& touched = m.contact_sums.touched;
+    const auto hit = std::find(touched.begin(), touched.end(), std::uint8_t{1});
+    if (hit != touched.end()) {
+      const NodeCracks& n = m.state.fields.nodes[hit - touched.begin()];
+      w.last = c.step;
+      w.place = m.state.grid.lattice.position(n.node);
+      w.crack = n.crack[0];
+      if (!w.closed)
+        log(CrackEvent::Kind::close);
+      w.closed = true;
+    } else if (w.closed && c.step - w.last >= quiet_tries * between) {
+      log(CrackEvent::Kind::open);
+      w.closed = false;
+    }
+  }
+  w.on = w.closed || (c.step + 1) % between == 0;
+}
+
+#define RIVEN_TASKS(Real)                                         \
+  template void sum_for_contact(SimulationOf<Real>&);             \
+  template void contact_before_update(SimulationOf<Real>&);       \
+  template void contact_after_update(SimulationOf<Real>&);        \
+  template void contact_on_high(SimulationOf<Real>&);             \
+  template void contact_after_extrapolation(SimulationOf<Real>&); \
+  template void watch_contact(SimulationOf<Real>&);
 RIVEN_TASKS(double)
 RIVEN_TASKS(float)
 #undef RIVEN_TASKS

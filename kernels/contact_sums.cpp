@@ -16,18 +16,19 @@ void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real
                   const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
   const InterfaceSegments<Shape, Real> segments(domains, grid, fields, cracks);
   const exec::View<const Vec2> jump = cracks.jump.view();  // shorter or empty before the first step
+  const long flagged = fields.nodes.size();
   exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
     segments.each(c, [&](int p, const SegmentFrame& s, auto&& nodes) {
       const double area = thickness * s.length;
       const Vec2 local = p < jump.size ? jump[p] : Vec2{}, opening = local.x * s.normal + local.y * s.along;
       nodes([&](int i, int k, double weight) {
-        ContactArea& to = out[2L * i + k];
+        ContactArea& to = out[entry_of(segments.nodes[i], i, k, flagged)];
         to.area += area * weight;
         to.opening += (area * weight) * opening;
       });
     });
   });
-  exec::parallel_for(space, "contact areas", 2 * fields.nodes.size(), [=](long i) {
+  exec::parallel_for(space, "contact areas", 2 * flagged + fields.third_normals.size(), [=](long i) {
     if (out[i].area > 0)
       out[i].opening *= 1 / out[i].area;
   });
@@ -92,7 +93,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
   sums.volume.resize(choice.volume ? slots : 0);
   sums.known.resize(fields.nodes.size());
   sums.known.zero();
-  sums.area.resize(choice.area ? 2 * fields.nodes.size() : 0);
+  sums.area.resize(choice.area ? 2 * fields.nodes.size() + fields.third_normals.size() : 0);
   sums.area.zero();
   if (!sums.area.empty())
     with_shape(of.shape, [&](auto type) {

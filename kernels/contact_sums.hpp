@@ -31,13 +31,18 @@ struct ContactSums {
   exec::Array<double> place;   ///< [4 slots] kg m, current and first positions from the node, times mass: [x y X Y];
                                ///< empty: not asked for
   exec::Array<double> volume;  ///< [slots] m^2 in the plane; empty: not asked for
-  exec::Array<std::uint8_t> known;  ///< [flagged] 1 where those of the node have been summed in this step
-  exec::Array<ContactArea> area;  ///< [2 flagged] entry 2 i + k: crack k of CrackFields::nodes[i]; empty: no interface
-                                  ///< law
-  exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update; empty:
-                                      ///< not asked for
+  exec::Array<std::uint8_t> known;    ///< [flagged] 1 where those of the node have been summed in this step
+  exec::Array<ContactArea> area;      ///< [2 flagged + nodes that may see three cracks or more] see entry_of; empty: no
+                                      ///< interface law
+  exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update, by more
+                                      ///< than rounding; empty: not asked for
   bool keep_touched = false;          ///< asks for it
 };
+
+/// Where crack k of n = CrackFields::nodes[i] stands in ContactSums::area.
+RIVEN_INLINE long entry_of(const NodeCracks& n, long i, int k, long flagged) {
+  return k < 2 ? 2 * i + k : 2 * flagged + n.third;
+}
 
 /// What to sum.
 struct ContactSumsChoice {

@@ -8,6 +8,13 @@
 
 namespace riven {
 
+namespace {
+
+/// Mass over a particle's below which a crack's surface has no body around it.
+constexpr double least_surface = 1e-6;
+
+}  // namespace
+
 template <class Real>
 void hash_if_due(SimulationOf<Real>& m) {
   auto& s = m.state;
@@ -38,8 +45,9 @@ template <class Real>
 void move_with_grid(SimulationOf<Real>& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
-    move_cracks<typename decltype(shape)::type>(m.space, s.grid, s.fields,
-                                                {m.scene.crack_motion, m.scene.surface_update}, s.clock.dt, s.cracks);
+    move_cracks<typename decltype(shape)::type>(
+        m.space, s.grid, s.fields, {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass},
+        s.clock.dt, s.cracks);
   });
 }
 

@@ -76,8 +76,6 @@ class FaceFields {
   }
 
  private:
-  using Fits = std::array<FieldFit, 4>;
-
   /// Adds up the fits of the nodes of the face point's cell, by `area`.
   void add_nodes(SurfacePoint& face, FaceValues& values, double& area) {
     const Lattice& l = s_.grid.lattice;
@@ -100,7 +98,7 @@ class FaceFields {
       }
       if (field < 0)
         continue;
-      const FieldFit& fit = fits(ni, nj)[static_cast<size_t>(field)];
+      const FieldFit& fit = fits(ni, nj, f)[field];
       if (!(fit.area > least_area))
         continue;
       fit.evaluate(r, N * fit.area, energies_ ? face_values : face_cheap, values);
@@ -108,26 +106,27 @@ class FaceFields {
     }
   }
 
-  const Fits& fits(int i, int j) {
+  /// The fits of all fields of a node, which is number `flagged` of those that may see cracks, or -1.
+  const FieldFit* fits(int i, int j, int flagged) {
     if (memory_.index.empty())
       memory_.index.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), -1);
     int& at = memory_.index[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
     if (at < 0) {
       at = static_cast<int>(memory_.fits.size());
-      memory_.fits.emplace_back();
-      sum_node(i, j, memory_.fits.back());
+      memory_.fits.resize(memory_.fits.size() + (flagged >= 0 && view_.nodes[flagged].crack[2] >= 0 ? 8 : 4));
+      sum_node(i, j, memory_.fits.data() + at);
     }
-    return memory_.fits[static_cast<size_t>(at)];
+    return memory_.fits.data() + at;
   }
 
-  void sum_node(int I, int J, Fits& fits) {
+  void sum_node(int I, int J, FieldFit* fits) {
     if (energies_)
       sum_values<face_values>(I, J, fits);
     else
       sum_values<face_cheap>(I, J, fits);
   }
   template <size_t Count>
-  void sum_values(int I, int J, Fits& fits) {
+  void sum_values(int I, int J, FieldFit* fits) {
     const double reach = 1.5 + drift_;
     for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
       for (int i = Shape::cell(I - reach); i <= Shape::cell(I + reach); ++i) {
@@ -147,14 +146,13 @@ class FaceFields {
     FaceValues values;
 
     template <size_t Count>
-    void add(int I, int J, Fits& fits) const {
+    void add(int I, int J, FieldFit* fits) const {
       const int m = I - base_x, n = J - base_y;
       if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
         return;
       const double S = weight_x[m] * weight_y[n];
       if (S > 0)
-        fits[static_cast<size_t>(CrackFields::field_of(word, n * Shape::width + m))].template add<Count>(
-            area * S, x - m, y - n, values);
+        fits[CrackFields::field_of(word, n * Shape::width + m)].template add<Count>(area * S, x - m, y - n, values);
     }
   };
   struct Range {
@@ -163,8 +161,8 @@ class FaceFields {
 
   /// Kept by its thread from tip to tip, as asking for memory would take as long as filling it.
   struct Memory {
-    std::vector<int> index;      ///< [nodes of the domain] position in fits, or -1
-    std::vector<Fits> fits;      ///< of nodes that were asked for
+    std::vector<int> index;      ///< [nodes of the domain] position of the first in fits, or -1
+    std::vector<FieldFit> fits;  ///< of the fields of nodes that were asked for
     std::vector<Range> of_cell;  ///< [cells of the domain and its margin]
     std::vector<Seen> seen;      ///< particles of cells that were asked for
   };

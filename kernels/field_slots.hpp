@@ -1,5 +1,7 @@
 // The slots of all fields of a node.
 #pragma once
+#include <algorithm>
+
 #include "core/state/crack_fields.hpp"
 
 namespace riven {
@@ -7,23 +9,28 @@ namespace riven {
 struct FieldSlots {
   FieldSlots(const CrackFields& f, int nodes)
       : nodes_(nodes),
+        most_(f.third_normals.empty() ? 4 : 1 << most_held),
         extra_(f.extra.empty() ? nullptr : f.extra.data()),
         index_(f.node_index.data()),
         start_(f.candidate_start.data()) {}
 
-  /// 1 without cracks, 2 where one crack may be seen, 4 where several may.
+  /// 1 without cracks, 2 where one crack may be seen, 4 where two and 8 where more may.
   RIVEN_INLINE int count(int node) const {
     if (!extra_ || extra_[node] < 0)
       return 1;
     const int i = index_[node];
-    return start_[i + 1] - start_[i] > 1 ? 4 : 2;
+    return 1 << std::min(start_[i + 1] - start_[i], most_held);
   }
+  /// Of any node, at most.
+  RIVEN_INLINE int most() const { return most_; }
+  /// Where a component of a field of entry n of a list of nodes stands among the two of each of its `most` fields.
+  RIVEN_INLINE long component(long n, int field, int axis) const { return 2 * (most_ * n + field) + axis; }
   RIVEN_INLINE long of(int node, int field) const {
     return field == 0 || !extra_ ? node : long{nodes_} + extra_[node] + field - 1;
   }
 
  private:
-  int nodes_;
+  int nodes_, most_;
   const int *extra_, *index_, *start_;
 };
 

@@ -39,6 +39,7 @@ struct Due {
   double most[4];           ///< m, the contour as asked for, or as drawn in
   bool adapted = false;     ///< the contour leaves out another tip
   bool in_cell = false;     ///< which is too near
+  double acting = 1;        ///< tips that the contour takes for this one: itself, and those too near that run its way
   bool settled = false;     ///< all of its edges lie in the solid
   bool to_draw_in = false;  ///< some do not, and have room to be drawn in
 };
@@ -46,8 +47,9 @@ struct Due {
 template <class Real>
 class JSearch {
  public:
-  JSearch(SimulationOf<Real>& m, bool report)
-      : m_(m), s_(m.state), report_(report), half_(0.5 * m.scene.fracture.contour * m.scene.cell) {
+  /// `tips`: State::tips, or a copy of them.
+  JSearch(SimulationOf<Real>& m, const FractureRules& rules, std::vector<Tip>& tips, bool report)
+      : m_(m), s_(m.state), rules_(rules), tips_(tips), report_(report), half_(0.5 * rules.contour * m.scene.cell) {
     solids_.reserve(m.scene.materials.size());
     for (const Material& material : m.scene.materials)
       solids_.emplace_back(material, m.scene.plane);
@@ -55,13 +57,13 @@ class JSearch {
 
   void run() {
     std::vector<Due> due;
-    for (Tip& tip : s_.tips)
+    for (Tip& tip : tips_)
       if (tip.open && (report_ || growth_due(tip, s_.clock.step)))
         due.push_back({&tip, {half_, half_, half_, half_}});
     if (due.empty())
       return;
     std::vector<Vec2> places;
-    for (const Tip& t : s_.tips)
+    for (const Tip& t : tips_)
       places.push_back(position_of(s_.cracks, t));
     places_ = TipPlaces(std::move(places));
     while (!due.empty()) {
@@ -94,11 +96,11 @@ class JSearch {
 
   TipTask place(Due& d) const {
     const Tip& tip = *d.tip;
-    const FractureRules& rules = m_.scene.fracture;
     const Vec2 at = position_of(s_.cracks, tip);
     const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others(tip));
     d.adapted = placed.adapted;
     d.in_cell = placed.in_cell;
+    d.acting = placed.in_cell ? acting_within(tip, placed.domain) : 1;
     TipTask task;
     task.domain = placed.domain;
     task.crack = tip.crack;
@@ -110,23 +112,35 @@ class JSearch {
     task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
     if (!m_.contact_sums.touched.empty())
       task.touched = m_.contact_sums.touched.data();
-    task.other_faces = rules.method != JMethod::pijc;
-    task.inertia = rules.area == AreaTerm::always || (rules.area == AreaTerm::automatic && rules.contour > 10);
-    task.interaction = rules.interaction;
+    task.other_faces = rules_.method != JMethod::pijc;
+    task.inertia = rules_.area == AreaTerm::always || (rules_.area == AreaTerm::automatic && rules_.contour > 10);
+    task.interaction = rules_.interaction;
     return task;
   }
 
   /// The other tips, where the contour is to leave them out.
   std::vector<Vec2> others(const Tip& tip) const {
     std::vector<Vec2> list;
-    if (m_.scene.fracture.method != JMethod::fijc_adaptive)
+    if (rules_.method != JMethod::fijc_adaptive)
       return list;
-    const Vec2 at = places_[static_cast<size_t>(&tip - s_.tips.data())];
+    const Vec2 at = places_[static_cast<size_t>(&tip - tips_.data())];
     places_.each_near(at, 2 * half_ + 2 * m_.scene.cell, [&](size_t k) {
-      if (s_.tips[k].open && &s_.tips[k] != &tip)
+      if (tips_[k].open && &tips_[k] != &tip)
         list.push_back(places_[k]);
     });
     return list;
+  }
+
+  /// A contour that cannot part tips gives what all of them release: J = sum_k q(x_k) cos(t, t_k) J_k, with t the way
+  /// each runs. Which of them has how much is below what the grid resolves, and each is given as much.
+  double acting_within(const Tip& tip, const JDomain& domain) const {
+    const Vec2 heading = heading_of(s_.cracks, tip);
+    double sum = 1;
+    places_.each_near(domain.tip, 2 * m_.scene.cell, [&](size_t k) {
+      if (tips_[k].open && &tips_[k] != &tip)
+        sum += domain.weight(places_[k] - domain.tip) * std::max(0., dot(heading, heading_of(s_.cracks, tips_[k])));
+    });
+    return sum;
   }
 
   /// Draws those edges of the contour that lie outside of the solid in by a cell, where there is room.
@@ -174,21 +188,21 @@ class JSearch {
   void settle(const Due& d, const TipTask& task) const {
     Tip& tip = *d.tip;
     const TipSums& sums = task.sums;
-    const Vec2 J = sums.J + sums.inertia + sums.faces;
+    const Vec2 J = (1 / d.acting) * (sums.J + sums.inertia + sums.faces);
     tip.step = s_.clock.step;
     tip.J1 = J.x;
     tip.J2 = J.y;
-    tip.J = dot(J, heading_of(s_.cracks, tip, true)) + sums.tractions;
+    tip.J = dot(J, heading_of(s_.cracks, tip, true)) + sums.tractions / d.acting;
     tip.adapted = d.adapted;
     tip.crossed = sums.crossed;
     tip.sound = d.settled;
     for (int e = 0; e < 4; ++e)
       tip.reach[e] = task.domain.reach[e] / m_.scene.cell;
-    share(tip, task);
+    share(tip, task, d.acting);
   }
 
   /// J to the modes: by the interaction integral where that holds, else by the opening.
-  void share(Tip& tip, const TipTask& task) const {
+  void share(Tip& tip, const TipTask& task, double acting) const {
     const PlaneElasticity& solid = *task.solid;
     const double none = std::numeric_limits<double>::quiet_NaN();
     const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell, task.sums.whole);
@@ -199,8 +213,8 @@ class JSearch {
     const bool usable = task.interaction && !task.sums.crossed && !task.sums.bent;
     if (usable) {
       const RunningTip& running = task.running;
-      tip.M_I = solid.mu * task.sums.interaction[0] / running.A_I;
-      tip.M_II = solid.mu * task.sums.interaction[1] / running.A_II;
+      tip.M_I = solid.mu * task.sums.interaction[0] / (running.A_I * acting);
+      tip.M_II = solid.mu * task.sums.interaction[1] / (running.A_II * acting);
       const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, {tip.M_I, tip.M_II});
       tip.K_I = K.I;
       tip.K_II = K.II;
@@ -220,42 +234,49 @@ class JSearch {
 
   SimulationOf<Real>& m_;
   State<Real, 2>& s_;
+  const FractureRules& rules_;
+  std::vector<Tip>& tips_;
   bool report_;
   double half_;
   std::vector<PlaneElasticity> solids_;
   TipPlaces places_;
 };
 
-/// One stage; `reaches_particles` is the part of its change in energy that the particles take over.
-template <class Real>
-void bridge(SimulationOf<Real>& m, ContactStage stage, double reaches_particles) {
-  m.state.ledger.energy.contact -= reaches_particles * bridge_tips(m.state, m.bridges, stage);
-}
-
 }  // namespace
 
 template <class Real>
 void bridge_before_update(SimulationOf<Real>& m) {
   list_bridges(m.space, m.state, m.bridges);
-  bridge(m, ContactStage::before, m.early_impulse());
+  bridge_tips(m.state, m.bridges, ContactStage::before, m.impulses);
 }
 template <class Real>
 void bridge_after_update(SimulationOf<Real>& m) {
-  bridge(m, ContactStage::after, 1);
+  bridge_tips(m.state, m.bridges, ContactStage::after, m.impulses);
 }
 template <class Real>
 void bridge_on_high(SimulationOf<Real>& m) {
-  bridge(m, ContactStage::higher, 1);
+  bridge_tips(m.state, m.bridges, ContactStage::higher, m.impulses);
 }
 template <class Real>
 void bridge_after_extrapolation(SimulationOf<Real>& m) {
-  bridge(m, ContactStage::again, 0);
+  bridge_tips(m.state, m.bridges, ContactStage::again, m.impulses);
 }
 
 template <class Real>
 void find_j_and_k(SimulationOf<Real>& m) {
   const Clock& c = m.state.clock;
-  JSearch(m, report_due(m.scene, c.time, c.time + c.dt)).run();
+  if (!m.contact_watch.on) {  // no faces act on each other
+    m.contact_sums.touched.resize(m.state.fields.nodes.size());
+    m.contact_sums.touched.zero();
+  }
+  const bool report = report_due(m.scene, c.time, c.time + c.dt);
+  JSearch(m, m.scene.fracture, m.state.tips, report).run();
+  if (!report)
+    return;
+  for (size_t k = 0; k < m.scene.readings.size(); ++k) {
+    m.state.readings[k] = m.state.tips;
+    JSearch(m, m.scene.readings[k].rules, m.state.readings[k], report).run();
+  }
 }
 
 #define RIVEN_TASKS(Real)                                        \

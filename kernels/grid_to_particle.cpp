@@ -56,10 +56,25 @@ struct StepNumbers {
   Real dt, keep, high_dt, damping;
 };
 
+/// Kinetic energy that particles lose by what the transfer changes of v + a dt, m (v + v')/2 . (v + a dt - v'), J.
+template <class Real>
+RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+                           const StepNumbers<Real>& n, double* worn) {
+  const double dt = n.dt, give = 1 - n.keep, high_dt = n.high_dt - n.dt, undamped = 1 - 0.5 * n.damping * dt;
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
+    const double vx = p.vx[first + k], vy = p.vy[first + k];
+    const double cx = give * (m.hx[k] + high_dt * m.ax[k] - vx), cy = give * (m.hy[k] + high_dt * m.ay[k] - vy);
+    worn[k] -= p.mass[first + k] *
+               ((undamped * vx + 0.5 * (dt * m.ax[k] + cx)) * cx + (undamped * vy + 0.5 * (dt * m.ay[k] + cy)) * cy);
+  });
+}
+
 /// New velocity of each lane; the move goes to `dx`, `dy`.
 template <class Real>
 RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
                                 const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
+  if (n.keep != Real(1))
+    wear_off(p, first, count, m, n, seen.worn);
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
     const Real vx = p.vx[i], vy = p.vy[i], bx = n.damping * vx, by = n.damping * vy;
@@ -88,7 +103,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
-  const WatchTiles<Real, true, Stress> see(s.watch);
+  const WatchTiles<Real, true, Stress> see(s.watch, rule.keep != 1);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
@@ -133,7 +148,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
-  const WatchTiles<Real, true, false> see(s.watch);
+  const WatchTiles<Real, true, false> see(s.watch, rule.keep != 1);
   const TileRun<Real> tiles{
       s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
   scatter_tiles<false>(

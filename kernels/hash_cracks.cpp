@@ -51,14 +51,13 @@ void each_place(Vec2 a, Vec2 b, Reach reach, const Lattice& lattice, const F& f)
         f(j * lattice.nx + i);
 }
 
-void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, Reach reach, Bins bins) {
+void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const exec::Array<Vec2>& points,
+          Reach reach, Bins bins) {
   const long nodes = lattice.nodes(), segments = std::max(0, cracks.points() - 1);
-  const auto places_of = [&, crack = cracks.crack.data()](long k, const auto& f) {
+  const auto places_of = [&, crack = cracks.crack.data(), point = points.data()](long k, const auto& f) {
     if (crack[k] != crack[k + 1])
       return;
-    const auto at = [&](long point) {
-      return (seen_point(cracks, static_cast<int>(point), lattice.h) - lattice.origin) * (1 / lattice.h);
-    };
+    const auto at = [&](long n) { return (point[n] - lattice.origin) * (1 / lattice.h); };
     const Vec2 a = at(k), b = at(k + 1);
     each_place(a, b, reach, lattice, f);
   };
@@ -144,7 +143,7 @@ void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::A
   fields.segment_start.resize(fields.node_segment.size() + 1);
   fields.extra.resize(lattice.nodes());
   std::memset(fields.extra.data(), 0xff, static_cast<size_t>(lattice.nodes()) * sizeof(int));
-  int total = 0, slots = 0;
+  int total = 0, slots = 0, thirds = 0;
   for (long f = 0; f < flagged; ++f) {
     const int first = total;
     for (int s = start[f]; s < start[f + 1]; ++s) {
@@ -157,16 +156,19 @@ void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::A
     NodeCracks& here = fields.nodes[f] = NodeCracks{};
     here.node = node[f];
     here.extra = slots;
-    here.sees = total - first == 1 ? fields.candidate[first] : -1;
+    const int seen = total - first;
+    here.sees = seen == 1 ? fields.candidate[first] : seen == 2 ? -1 : -2;
+    here.third = seen > 2 ? thirds++ : -1;
     fields.candidate_start[f] = first;
     fields.extra[node[f]] = slots;
-    slots += total - first == 1 ? 1 : 3;
+    slots += (1 << std::min(seen, most_held)) - 1;
   }
   fields.candidate_start[flagged] = total;
   fields.segment_start[total] = start[flagged];
   fields.candidate.resize(total);
   fields.segment_start.resize(total + 1);
   fields.extra_slots = slots;
+  fields.third_normals.resize(thirds);
 }
 
 }  // namespace
@@ -184,19 +186,16 @@ bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cr
 }
 
 template <class Shape>
-void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
-  const exec::Stopwatch watch(space.timers(), "hash cracks");
-  if (!fields.relisted)
-    std::swap(static_cast<CrackLists&>(fields), fields.former);
-  fields.relisted = true;
+void list_segments(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   // paths lie between a place in the cell and the three by three nodes around the nearest one, which crack surfaces see
   // with every shape function; those that end at one node start at most one and a half cells away from it
   constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
   constexpr Reach node{-1.5, 1.5, 0};
-  fill(space, lattice, cracks, cell, {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
+  fill(space, lattice, cracks, fields.hashed, cell,
+       {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
   mark_tiles(lattice, cracks, fields);
   exec::Array<int> flagged, start;
-  fill(space, lattice, cracks, node, {fields.node_index, flagged, start, fields.node_segment});
+  fill(space, lattice, cracks, fields.hashed, node, {fields.node_index, flagged, start, fields.node_segment});
   list_candidates(lattice, cracks, flagged, start, fields);
 
   fields.tally.resize(2 * fields.candidate.size());
@@ -205,20 +204,33 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
   fields.held.zero();
   fields.recount.resize(fields.nodes.size());
   fields.clearance.resize(fields.nodes.size());
-  fields.hashed.resize(cracks.points());
   fields.serial = cracks.serial;
   fields.kind.resize(cracks.points());
-  for (int k = 0; k < cracks.points(); ++k) {
-    fields.hashed[k] = seen_point(cracks, k, lattice.h);
-    fields.kind[k] = PointKind::joint;
-  }
+  for (PointKind& kind : fields.kind)
+    kind = PointKind::joint;
   for (int c = 0; c < cracks.count(); ++c)
     for (const bool last : {false, true})
       fields.kind[cracks.end_point(c, last)] = cracks.is_open(c, last) ? PointKind::open_end : PointKind::end;
 }
 
-template void hash_cracks<Linear>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
-template void hash_cracks<UGimp>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
-template void hash_cracks<BSpline>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
+template <class Shape>
+void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  const exec::Stopwatch watch(space.timers(), "hash cracks");
+  if (!fields.relisted)
+    std::swap(static_cast<CrackLists&>(fields), fields.former);
+  fields.relisted = true;
+  fields.hashed.resize(cracks.points());
+  for (int k = 0; k < cracks.points(); ++k)
+    fields.hashed[k] = seen_point(cracks, k, lattice.h);
+  list_segments<Shape>(space, lattice, cracks, fields);
+}
+
+#define RIVEN_HASH(Shape)                                                                            \
+  template void hash_cracks<Shape>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&); \
+  template void list_segments<Shape>(const exec::Space&, const Lattice&, const Cracks&, CrackFields&);
+RIVEN_HASH(Linear)
+RIVEN_HASH(UGimp)
+RIVEN_HASH(BSpline)
+#undef RIVEN_HASH
 
 }  // namespace riven

@@ -23,12 +23,10 @@ void run(const exec::Space& space, const exec::Array<DomainSetting<Real, 2>>& do
           const Real* d = q + 4 * segments.slot(n, f);
           return Vec2{double(d[0]), double(d[1])} - (0.5 * dt) * Vec2{double(d[2]), double(d[3])};
         };
-        for (const Meeting& m : segments.meetings(n)) {
-          if (m.k != k)
-            continue;
+        segments.each_meeting(n, k, [&](const Meeting& m) {
           const Vec2 parting = (dt * weight * m.share) * (mean_velocity(m.below) - mean_velocity(m.above));
           jump[p] += Vec2{dot(parting, s.normal), dot(parting, s.along)};
-        }
+        });
       });
     });
   });

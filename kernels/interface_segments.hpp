@@ -31,6 +31,7 @@ struct InterfaceSegments {
   const int* node_index;
   const NodeCracks* nodes;
   const NodeNormals* normals;
+  const ThirdNormal* third_normals;
   const int* start;
   const Vec2* plane;
   const ContactSettings* law;
@@ -44,6 +45,7 @@ struct InterfaceSegments {
         node_index(f.node_index.data()),
         nodes(f.nodes.data()),
         normals(f.normals.data()),
+        third_normals(f.third_normals.data()),
         start(c.start.data()),
         plane(c.plane.data()),
         law(c.contact.data()) {}
@@ -51,21 +53,31 @@ struct InterfaceSegments {
   RIVEN_INLINE long slot(const NodeCracks& n, int f) const {
     return f == 0 ? n.node : long{lattice.nodes()} + extra[n.node] + f - 1;
   }
-  RIVEN_INLINE Meetings meetings(const NodeCracks& n) const {
-    double m[ContactNode::fields] = {};
-    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f)
-      m[f] = mass[slot(n, f)];
-    return find_meetings(n, normals[&n - nodes], m, law);
+  /// f(meeting) for those across crack k of a node.
+  template <class F>
+  RIVEN_INLINE void each_meeting(const NodeCracks& n, int k, const F& f) const {
+    if (n.crack[2] < 0)
+      each_meeting_of<2>(n, k, f);
+    else
+      each_meeting_of<3>(n, k, f);
+  }
+  template <int cracks, class F>
+  RIVEN_INLINE void each_meeting_of(const NodeCracks& n, int k, const F& f) const {
+    double m[1 << cracks] = {};
+    for (int field = 0; field < n.fields(); ++field)
+      m[field] = mass[slot(n, field)];
+    for (const Meeting& meeting :
+         find_meetings<cracks>(n, held_normals<cracks>(n, &n - nodes, normals, third_normals), m, law))
+      if (meeting.k == k)
+        f(meeting);
   }
   /// Mass of the relative motion across crack k of a node, kg.
   RIVEN_INLINE double relative_mass(const NodeCracks& n, int k) const {
     double sum = 0;
-    for (const Meeting& m : meetings(n)) {
-      if (m.k != k)
-        continue;
+    each_meeting(n, k, [&](const Meeting& m) {
       const double a = mass[slot(n, m.above)], b = mass[slot(n, m.below)];
       sum += a * b / (a + b);
-    }
+    });
     return sum;
   }
 
@@ -90,9 +102,9 @@ struct InterfaceSegments {
         if (x < 0 || y < 0 || x >= lattice.nx || y >= lattice.ny)
           continue;
         const int i = node_index[y * lattice.nx + x];
-        if (i < 0 || (nodes[i].crack[0] != c && nodes[i].crack[1] != c))
+        const int k = i < 0 ? -1 : nodes[i].which(static_cast<int>(c));
+        if (k < 0)
           continue;
-        const int k = nodes[i].crack[0] == c ? 0 : 1;
         const double w = double(a.s[n % Shape::width]) * b.s[n / Shape::width] * relative_mass(nodes[i], k);
         if (!(w > 0))
           continue;

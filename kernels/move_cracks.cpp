@@ -44,9 +44,9 @@ Vec2 surface_move(const PointMotion& m, SurfaceUpdate update, double dt, bool ve
 }
 
 /// Drops what comes from nodes that the body barely reaches, those of a crack's points that lie outside of it: their
-/// accelerations f/m have no bound.
-void drop_light(Found* first, Found* last) {
-  double most = 0;
+/// accelerations f/m have no bound. Of a crack beside a body all are: `least` says so.
+void drop_light(Found* first, Found* last, double least) {
+  double most = 5 * least;
   for (const Found* f = first; f != last; ++f)
     most = std::max({most, f->surface[0].mass, f->surface[1].mass});
   for (Found* f = first; f != last; ++f)
@@ -136,7 +136,7 @@ void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks,
 /// Moves the points of one crack by what was found for them.
 void move_crack(const CrackRules& rules, double dt, int crack, Found* found, Cracks& cracks) {
   const long first = cracks.end_point(crack, false), last = cracks.end_point(crack, true) + 1;
-  drop_light(found + first, found + last);
+  drop_light(found + first, found + last, rules.least_mass);
   std::vector<Moves> moves(static_cast<size_t>(last - first));
   for (long k = first; k < last; ++k)
     moves[static_cast<size_t>(k - first)] = moves_of(found[k], rules, dt, k, cracks);

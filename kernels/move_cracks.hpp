@@ -23,6 +23,7 @@ namespace riven {
 struct CrackRules {
   CrackMotion motion = CrackMotion::surfaces;
   SurfaceUpdate update = SurfaceUpdate::xpic;
+  double least_mass = 0;  ///< kg; a surface that finds less of it finds nothing
 };
 
 /// `grid.q` holds [vx vy ax ay], `fields` what determine_fields made in this step. Shape: that of the particles.

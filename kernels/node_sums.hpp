@@ -78,8 +78,8 @@ struct NodeSums {
     const Vec2 node = lattice.position(n.node);
     const int I = n.node % lattice.nx, K = n.node / lattice.nx;
     prefetch_around<Shape>(I, K);
-    Quad<double> places[4]{};
-    double areas[4]{};
+    Quad<double> places[1 << most_held]{};
+    double areas[1 << most_held]{};
     Block<Real, Shape> w;
     each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
       for (; first < last; first += exec::lanes) {
@@ -98,7 +98,7 @@ struct NodeSums {
         }
       }
     });
-    for (int f = 0; f < (n.crack[1] < 0 ? 2 : 4); ++f) {
+    for (int f = 0; f < n.fields(); ++f) {
       const long slot = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
       if (place)
         quad_at<double>(place + 4 * slot) = places[f];

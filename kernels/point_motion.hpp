@@ -136,7 +136,7 @@ struct Extrapolation {
         const int node = (a.y.base + j) * grid.lattice.nx + a.x.base + i, f = fields.node_index[node];
         const int held = f < 0 ? 0 : fields.held[f];
         add(row, a.x, i, node, grid.mass[node]);
-        for (int field = 0; field < (held < 2 ? held : 3); ++field) {
+        for (int field = 0; field < (1 << held) - 1; ++field) {
           const long slot = long{grid.lattice.nodes()} + fields.extra[node] + field;
           add(row, a.x, i, slot, grid.mass[slot]);
         }

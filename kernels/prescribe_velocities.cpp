@@ -7,6 +7,7 @@
 #include "core/state/lay_points.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
+#include "kernels/strain_shares.hpp"
 
 namespace riven {
 
@@ -125,19 +126,23 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
   c.list.resize(static_cast<long>(list.size()));
   std::copy(list.begin(), list.end(), c.list.begin());
   c.impulse.resize(c.list.size());
-  c.carried.resize(8 * c.list.size());
-  c.carried.zero();
+  const long numbers = 2L * FieldSlots(s.fields, s.grid.lattice.nodes()).most() * c.list.size();
+  for (exec::Array<double>& change : c.change) {
+    change.resize(numbers);
+    change.zero();
+  }
 }
 
 template <class Real>
 void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double early_impulse) {
   Constraints& c = s.constraints;
-  const int first_grip = static_cast<int>(c.owners.size() - c.grips.size());
+  const int first_grip = c.first_grip();
   const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const Constraint* list = c.list.data();
   const ConstraintOwner* owners = c.owners.data();
   Vec2* impulse = c.impulse.data();
-  double* carried = c.carried.data();
+  double *first = c.change[0].data(),
+         *noted = stage == Stage::term ? nullptr : c.change[static_cast<int>(stage)].data();
   const Real* mass = s.grid.mass.data();
   Real* q = stage == Stage::again ? s.grid.again.data() : stage == Stage::term ? s.grid.next.data() : s.grid.q.data();
   const bool momenta = stage == Stage::before || stage == Stage::again;
@@ -158,12 +163,12 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
         Real& value = q[4 * slot + axis];
         const double change = momenta ? m * v - value : m * (v - value);
         value = Real(momenta ? m * v : v);
-        double& before = carried[8 * n + 2 * f + axis];
+        const long at = slots.component(n, f, axis);
         const bool carry = k.owner[axis] >= first_grip;
-        if (stage == Stage::before && carry)
-          before = change;
+        if (noted)
+          noted[at] = change;
         if (stage == Stage::after)
-          q[4 * slot + 2 + axis] += Real((change + before) / m * inv_dt);
+          q[4 * slot + 2 + axis] += Real((change + (carry ? first[at] : 0)) / m * inv_dt);
         given[axis] += stage == Stage::before && !carry ? early_impulse * change : change;
       }
     }
@@ -185,9 +190,58 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
   }
 }
 
+namespace {
+
+/// What a component of a field of a node gains by prescribed motion, as field_impulses.hpp has it for contact.
+struct Gain {
+  double particles = 0, early = 0;  ///< J; the part that the transfer hands over
+};
+
 template <class Real>
-void settle_constraints(State<Real, 2>& s) {
+Gain gain(const State<Real, 2>& s, StrainShares share, bool again, double early_impulse, long slot, int axis,
+          const double* change, bool carry) {
+  const double m = s.grid.mass[slot], dt = s.clock.dt, before = change[0], now = change[1], last = change[2];
+  const double v1 = s.grid.q[4 * slot + axis], a = s.grid.q[4 * slot + 2 + axis];
+  const double given = now + (carry ? before : 0), early = carry ? 0 : early_impulse * before;
+  const double v0 = v1 - dt * a - (carry ? 0 : before / m);
+  const double v2 = again ? s.grid.again[4 * slot + axis] - last / m : v0 + dt * a + early / m, mean = 0.5 * (v0 + v2);
+  const double strains = share.by_first * before + share.by_last * last;
+  return {(given + early) * mean - (dt * a - given / m) * strains, early * mean};
+}
+
+/// Books what prescribed motion took beyond the work of the reactions.
+template <class Real>
+void book_capture(const Plan& plan, double early_impulse, State<Real, 2>& s) {
+  const Constraints& c = s.constraints;
+  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
+  const StrainShares share = strain_shares(plan.update);
+  Gain sum;
+  for (long n = 0; n < c.list.size(); ++n)
+    for (int f = 0; f < slots.count(c.list[n].node); ++f) {
+      const long slot = slots.of(c.list[n].node, f);
+      for (int axis = 0; axis < 2 && s.grid.mass[slot] > 0; ++axis) {
+        if (!(c.list[n].mask & (1u << axis)))
+          continue;
+        const long at = slots.component(n, f, axis);
+        const double change[3] = {c.change[0][at], c.change[1][at], c.change[2][at]};
+        const Gain g = gain(s, share, plan.extrapolate_again(), early_impulse, slot, axis, change,
+                            c.list[n].owner[axis] >= c.first_grip());
+        sum.particles += g.particles;
+        sum.early += g.early;
+      }
+    }
+  s.ledger.energy.transfer += sum.early;
+  s.ledger.energy.capture -= sum.particles;
+  for (const ConstraintOwner& o : c.owners)
+    s.ledger.energy.capture += o.work_now;
+}
+
+}  // namespace
+
+template <class Real>
+void settle_constraints(const Plan& plan, double early_impulse, State<Real, 2>& s) {
   Constraints& c = s.constraints;
+  book_capture(plan, early_impulse, s);
   for (ConstraintOwner& o : c.owners) {
     o.reaction = (1 / s.clock.dt) * o.impulse;
     s.ledger.momentum.impulse += o.impulse;
@@ -207,7 +261,7 @@ void settle_constraints(State<Real, 2>& s) {
   template void make_constraints(const Scene&, State<Real, 2>&);                          \
   template void list_constraints(const Plan&, State<Real, 2>&);                           \
   template void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double); \
-  template void settle_constraints(State<Real, 2>&);
+  template void settle_constraints(const Plan&, double, State<Real, 2>&);
 RIVEN_PRESCRIBE_VELOCITIES(double)
 RIVEN_PRESCRIBE_VELOCITIES(float)
 #undef RIVEN_PRESCRIBE_VELOCITIES

@@ -28,8 +28,9 @@ void list_constraints(const Plan&, State<Real, 2>&);
 template <class Real>
 void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double early_impulse = 0);
 
-/// Ends the step: books impulses and work, moves the grips, turns impulses into reaction forces.
+/// Ends the step: books impulses, work and what was lost as bodies were caught, moves the grips, turns impulses into
+/// reaction forces. Needs Grid::q as [vx vy ax ay] and Grid::again, where there is one, as [vx vy . .].
 template <class Real>
-void settle_constraints(State<Real, 2>&);
+void settle_constraints(const Plan&, double early_impulse, State<Real, 2>&);
 
 }  // namespace riven

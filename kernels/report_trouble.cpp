@@ -20,6 +20,14 @@ std::string where(const State<Real, 2>& s, long i) {
 
 constexpr const char* cures = "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; shape = \"ugimp\"";
 
+/// Fails with the particle's step, time and place.
+template <class Real>
+[[noreturn]] void stop(const State<Real, 2>& s, long i, std::string what, std::string value, std::string limit,
+                       std::string suggestion = cures) {
+  fail({Exit::unstable, std::move(what), where(s, i), std::move(value), std::move(limit), std::move(suggestion),
+        Vec2{s.particles.x[0][i], s.particles.x[1][i]}});
+}
+
 template <class Real>
 double det_F(const Particles<Real, 2>& p, long i) {
   return p.J.empty() ? p.F[0][i] * p.F[3][i] - p.F[1][i] * p.F[2][i] : p.J[i];
@@ -31,10 +39,10 @@ template <class Real>
 void particle_left_grid(const State<Real, 2>& s, long i) {
   const Lattice& l = s.grid.lattice;
   const Vec2 a = l.position(l.wall_lower[0], l.wall_lower[1]), b = l.position(l.wall_upper[0], l.wall_upper[1]);
-  fail({Exit::unstable, "a particle left the grid", where(s, i),
-        fmt::format("velocity ({:.4g}, {:.4g}) m/s", s.particles.v[0][i], s.particles.v[1][i]),
-        fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m", a.x, a.y, b.x, b.y),
-        std::string("if it flew there on purpose, a larger [grid]; if it was thrown out, ") + cures});
+  stop(s, i, "a particle left the grid",
+       fmt::format("velocity ({:.4g}, {:.4g}) m/s", s.particles.v[0][i], s.particles.v[1][i]),
+       fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m", a.x, a.y, b.x, b.y),
+       std::string("if it flew there on purpose, a larger [grid]; if it was thrown out, ") + cures);
 }
 
 template <class Real>
@@ -43,41 +51,47 @@ void check_particles(const State<Real, 2>& s) {
   if (!std::isfinite(s.watch.largest_move))
     for (long i = 0; i < p.count(); ++i)
       if (!std::isfinite(p.x[0][i] + p.x[1][i] + p.v[0][i] + p.v[1][i]))
-        fail({Exit::unstable, "a particle's motion is not a number any more", where(s, i),
-              fmt::format("velocity ({}, {}) m/s", p.v[0][i], p.v[1][i]), "finite", cures});
+        stop(s, i, "a particle's motion is not a number any more",
+             fmt::format("velocity ({}, {}) m/s", p.v[0][i], p.v[1][i]), "finite");
   if (!(s.watch.least_J > 0))
     for (long i = 0; i < p.count(); ++i)
       if (!(det_F(p, i) > 0))
-        fail({Exit::unstable, "a particle turned inside out", where(s, i), fmt::format("det F = {:.4g}", det_F(p, i)),
-              "det F > 0", cures});
+        stop(s, i, "a particle turned inside out", fmt::format("det F = {:.4g}", det_F(p, i)), "det F > 0");
   if (s.watch.largest_move > s.grid.lattice.h)
     for (long i = 0; i < p.count(); ++i)
       if (std::max(std::abs(p.v[0][i]), std::abs(p.v[1][i])) * s.clock.dt > 0.9 * s.grid.lattice.h)
-        fail({Exit::unstable, "a particle moved further than a cell in one step", where(s, i),
-              fmt::format("velocity ({:.4g}, {:.4g}) m/s", p.v[0][i], p.v[1][i]),
-              fmt::format("{:.4g} m/s, a cell in a step", s.grid.lattice.h / s.clock.dt), cures});
+        stop(s, i, "a particle moved further than a cell in one step",
+             fmt::format("velocity ({:.4g}, {:.4g}) m/s", p.v[0][i], p.v[1][i]),
+             fmt::format("{:.4g} m/s, a cell in a step", s.grid.lattice.h / s.clock.dt));
 }
 
+/// The work of a load is booked with the particles' moves, which lag behind their momentum: when a body at rest is
+/// loaded at once, its energy, as the square of the steps, is ahead of the work by up to this part over the steps so
+/// far.
+constexpr double work_lag = 0.5;
+
 template <class Real>
-void check_energy(const State<Real, 2>& s, double limit, bool reaches_particles) {
+void check_energy(const State<Real, 2>& s, double limit) {
   const Energy& e = s.ledger.energy;
-  const double grown = e.numerical() - (reaches_particles ? 0 : std::max(0.0, e.contact));
-  if (!(grown > limit * e.largest))
+  const double grown = std::min(e.numerical(), e.unaccounted());
+  const double lag = work_lag / static_cast<double>(std::max(1L, s.clock.step));
+  if (!(grown > (limit + lag) * e.largest))
     return;
   const auto& p = s.particles;
   long fastest = 0;
   for (long i = 1; i < p.count(); ++i)
     if (std::hypot(p.v[0][i], p.v[1][i]) > std::hypot(p.v[0][fastest], p.v[1][fastest]))
       fastest = i;
-  fail({Exit::unstable, "energy grows without work being done; the fastest particle is named", where(s, fastest),
-        fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * grown / e.largest, e.largest),
-        fmt::format("{:.3g} % (limits.energy_growth)", 100 * limit), cures});
+  stop(s, fastest, "energy grows without work being done; the fastest particle is named",
+       fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * grown / e.largest, e.largest),
+       fmt::format("{:.3g} % (limits.energy_growth){}", 100 * limit,
+                   lag > 0.01 * limit ? fmt::format(", and {:.3g} % so soon after the start", 100 * lag) : ""));
 }
 
 #define RIVEN_REPORT_TROUBLE(Real)                               \
   template void particle_left_grid(const State<Real, 2>&, long); \
   template void check_particles(const State<Real, 2>&);          \
-  template void check_energy(const State<Real, 2>&, double, bool);
+  template void check_energy(const State<Real, 2>&, double);
 RIVEN_REPORT_TROUBLE(double)
 RIVEN_REPORT_TROUBLE(float)
 #undef RIVEN_REPORT_TROUBLE

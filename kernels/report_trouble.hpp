@@ -13,8 +13,8 @@ template <class Real>
 void check_particles(const State<Real, 2>&);
 
 /// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than `limit` of the largest
-/// energy. What contact took is left out of the sinks unless it `reaches_particles` (Energy::contact).
+/// energy, with what the transfer took and without: that of a higher order gives back some of what contact takes.
 template <class Real>
-void check_energy(const State<Real, 2>&, double limit, bool reaches_particles);
+void check_energy(const State<Real, 2>&, double limit);
 
 }  // namespace riven

@@ -21,6 +21,7 @@ struct TaskOf {
   std::string label;
   std::string effect;
   std::function<void(SimulationOf<Real>&)> run;
+  std::function<bool(const SimulationOf<Real>&)> due{};  ///< steps without it pass it over; empty: none does
   long calls = 0;
   double seconds = 0;
 };
@@ -34,6 +35,8 @@ class SimulationOf {
   /// Scene and space must outlive the simulation. Throws Error (bad input).
   SimulationOf(const Scene& scene, const exec::Space& space);
 
+  /// Back to the first state.
+  void begin();
   /// One time step: the tasks, in order. Throws Error (unstable) when the step went wrong.
   void step();
   bool finished() const { return state.clock.time >= scene.end_time * (1 - 1e-12); }
@@ -49,12 +52,14 @@ class SimulationOf {
   // contact's work space and what it did so far
   ContactSums contact_sums;
   ContactReport contact_before, contact_after, contact_again;
+  ContactWatch contact_watch;
+  FieldImpulses impulses;  ///< of contact and of bridges, in the step
 
   FractureReport fracture;
   std::vector<TipBridge> bridges;         ///< [tips]
   std::vector<PointForces> point_forces;  ///< of tractions on faces
 
-  Vec2 gravity() const;         ///< body force per mass now, m/s^2
+  Vec2 gravity() const;         ///< body force per mass in the middle of the step, m/s^2
   double grid_damping() const;  ///< 1/s
   double particle_damping() const;
   /// How much of contact's impulses before the momentum update reaches the particles.

@@ -30,7 +30,18 @@ RIVEN_INLINE int key_of(const Lattice& l, double X, double Y) {
   return inside ? l.sorted_cell(i, j) : -1;
 }
 
-/// Lists the tiles that hold particles, and those of one colour together: colour = (x parity) + 2 (y parity).
+/// Moves one array to the new order, through `spare`.
+template <class T>
+void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& spare, const int* order) {
+  spare.resize(array.size());
+  T* to = spare.data();
+  const T* from = array.data();
+  exec::parallel_for(space, "sort particles: move", array.size(), [=](long i) { to[i] = from[order[i]]; });
+  array.swap(spare);
+}
+
+}  // namespace
+
 void list_tiles(const Lattice& l, Tiles& t) {
   t.filled.clear();
   for (int tile = 0; tile < l.tiles_x() * l.tiles_y(); ++tile)
@@ -44,18 +55,6 @@ void list_tiles(const Lattice& l, Tiles& t) {
   }
   t.colour_start[4] = static_cast<int>(t.by_colour.size());
 }
-
-/// Moves one array to the new order, through `spare`.
-template <class T>
-void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& spare, const int* order) {
-  spare.resize(array.size());
-  T* to = spare.data();
-  const T* from = array.data();
-  exec::parallel_for(space, "sort particles: move", array.size(), [=](long i) { to[i] = from[order[i]]; });
-  array.swap(spare);
-}
-
-}  // namespace
 
 template <class Real>
 bool sort_due(const State<Real, 2>& s) {
@@ -100,7 +99,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
       [&](auto& a) { permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), order.data()); });
   ++p.tiles.order;
   list_tiles(l, p.tiles);
-  for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite})
+  for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite, &s.watch.tile_worn})
     a->resize(tiles);
   s.watch.drift = 0;
   s.watch.sorted_at = s.clock.step;

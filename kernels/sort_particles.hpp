@@ -11,6 +11,9 @@ namespace riven {
 template <class Real>
 bool sort_due(const State<Real, 2>&);
 
+/// Lists the tiles that hold particles, and those of one colour together: colour = (x parity) + 2 (y parity).
+void list_tiles(const Lattice&, Tiles&);
+
 /// Throws Error (unstable) naming a particle that is outside of the grid's walls.
 template <class Real>
 void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);

@@ -119,7 +119,7 @@ inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, in
     const Vec2 a = view.traced[k], b = view.traced[k + 1];
     const bool beside = (a.x < left && b.x < left) || (a.x > right && b.x > right);
     if (!beside && !((a.y < lower && b.y < lower) || (a.y > upper && b.y > upper)))
-      sum.add(crossing(from, n, view.traced + k, k == first, k + 1 == last));
+      sum.add(crossing(from, n, view.traced + k, k == first, k + 1 == last, 0));  // ends on cracks move with both sides
   }
   return sum.side();
 }
@@ -162,11 +162,11 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s,
     const Side side = crack == s.own.crack ? Side::none : side_crossed(view, s.x, n, at, end);
     if (side == Side::none)
       continue;
-    const int m = held.crack[1] == crack;
-    if (held.crack[m] == crack) {
+    const int m = held.which(crack);
+    if (m >= 0) {
       if (held.side[m] == side)
         field |= 1 << m;
-    } else if (held.crack[1] < 0) {
+    } else if (held.crack[most_held - 1] < 0) {
       return -1;
     }
   }
@@ -179,16 +179,16 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s,
 /// crossed where the line from the surface to the node crosses it from the side that the node holds. Along the middle
 /// of its own crack that is where the node has crossings from this surface's side; near a tip the line may pass beyond,
 /// whatever the node holds. The field of a crack that the line crosses and the node does not hold is empty; only a
-/// crack beyond the two that a node can hold is ignored, as it is for particles.
+/// crack beyond the three that a node can hold is ignored, as it is for particles.
 inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint& s, const NodeCracks& held,
                                      Vec2 place) {
-  const int m = held.crack[1] == s.own.crack;
-  const bool holds = held.crack[m] == s.own.crack;
+  const int m = held.which(s.own.crack);
+  const bool holds = m >= 0;
   int field = holds && held.side[m] == s.side ? 1 << m : 0;
   if ((!holds || (s.own.tip && field != 0)) && !detail::crosses_own(view, s, place))
     field = 0;
   else if (!holds)
-    field = held.crack[1] < 0 ? -1 : 0;
+    field = held.crack[most_held - 1] < 0 ? -1 : 0;
   return field < 0 ? field : detail::cross_others(view, s, place, held, field);
 }
 
@@ -236,7 +236,8 @@ struct NodesAround {
 
 /// The slots of the nodes from (i, j) on for the upper surface s[0] and the lower one s[1] of a point. Where the line
 /// along the point tells on which side of the crack a node is, and no other crack is in sight, these are found without
-/// branches, what comes next to what around a crack being beyond prediction. The others are looked at after.
+/// branches, what comes next to what around a crack being beyond prediction. The others are looked at after, as are
+/// nodes that may see more than two cracks.
 RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, int i, int j, SurfaceSlots& slot) {
   const CrackPoint& own = s[0].own;
   const detail::NodesAround around(view, own.x, i, j);
@@ -259,7 +260,7 @@ RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, in
     slot[1][n] = from_below ? field : room & above ? -1 : node;
     const int near = !(std::fabs(off) > far);
     const int here = around.flagged[n] & near & (loose | tip);
-    unclear |= here << n;
+    unclear |= (here | (around.sees[n] < -1)) << n;
     unsure |= (here | (around.flagged[n] & (around.sees[n] != crack))) << n;
   }
   if (unsure == 0)

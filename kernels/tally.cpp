@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/exec/parallel.hpp"
 #include "core/state/tractions.hpp"
@@ -26,6 +27,54 @@ struct Sums {
   }
 };
 
+/// The same, lane by lane.
+struct LaneSums {
+  static constexpr int lanes = exec::lanes;
+  double kinetic[lanes] = {}, strain[lanes] = {}, px[lanes] = {}, py[lanes] = {}, angular[lanes] = {};
+  double scale[lanes] = {}, angular_scale[lanes] = {};
+
+  Sums sum() const {
+    Sums t;
+    for (int k = 0; k < lanes; ++k)
+      t += {kinetic[k], strain[k], px[k], py[k], angular[k], scale[k], angular_scale[k]};
+    return t;
+  }
+};
+
+/// Over particles [first, first + count) of a chunk; law_of(i) is the law of particle i.
+template <class Law, class Real, class LawOf>
+RIVEN_INLINE void add_up(const Particles<Real, 2>& p, const LawOf& law_of, long first, int count, LaneSums& t) {
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
+    const long i = first + k;
+    const double m = p.mass[i], vx = p.v[0][i], vy = p.v[1][i], x = p.x[0][i], y = p.x[1][i];
+    const double vv = vx * vx + vy * vy;
+    t.kinetic[k] += 0.5 * m * vv;
+    t.strain[k] += m * law_of(i).energy(law_state<Law>(p, i));
+    t.px[k] += m * vx;
+    t.py[k] += m * vy;
+    t.angular[k] += m * (x * vy - y * vx);
+    t.scale[k] += m * std::sqrt(vv);
+    t.angular_scale[k] += m * std::sqrt(vv * (x * x + y * y));
+  });
+}
+
+template <class Law, class Real, class LawOf>
+Sums sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const LawOf& law_of) {
+  const long n = p.count(), chunks = (n + exec::chunk - 1) / exec::chunk;
+  std::vector<Sums> part(static_cast<size_t>(chunks));
+  exec::parallel_tasks(space, "tally", chunks, [&](long c) {
+    LaneSums t;
+    const long end = std::min(n, (c + 1) * exec::chunk);
+    for (long first = c * exec::chunk; first < end; first += exec::lanes)
+      add_up<Law>(p, law_of, first, static_cast<int>(std::min<long>(exec::lanes, end - first)), t);
+    part[static_cast<size_t>(c)] = t.sum();
+  });
+  Sums total;
+  for (const Sums& t : part)
+    total += t;
+  return total;
+}
+
 }  // namespace
 
 template <class Real>
@@ -34,12 +83,9 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const Sums t = with_law<Real>(plan.law, [&](auto law) {
     using Law = typename decltype(law)::type;
     const BodyLookup<Law> of = laws<Law>(s);
-    return exec::parallel_reduce<Sums>(space, "tally", p.count(), [&, of](long i) {
-      const double m = p.mass[i], vx = p.v[0][i], vy = p.v[1][i], x = p.x[0][i], y = p.x[1][i];
-      const double v = std::sqrt(vx * vx + vy * vy);
-      return Sums{0.5 * m * v * v, m * of.of(i).energy(law_state<Law>(p, i)), m * vx, m * vy, m * (x * vy - y * vx),
-                  m * v,           m * v * std::sqrt(x * x + y * y)};
-    });
+    if (of.single)
+      return sum_particles<Law>(space, p, [law = of.table[0]](long) RIVEN_LANE { return law; });
+    return sum_particles<Law>(space, p, [of](long i) RIVEN_LANE { return of.of(i); });
   });
   Energy& e = s.ledger.energy;
   Momentum& b = s.ledger.momentum;

@@ -55,16 +55,22 @@ Speeds measure_speeds(const exec::Space& space, const Plan& plan, const State<Re
 template <class Real>
 void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
   Clock& c = s.clock;
-  c.dt = scene.cfl * s.grid.lattice.h / v.sum;
+  const double cfl = scene.cfl * c.dt_factor, dt_max = scene.dt_max * c.dt_factor;
+  c.dt = cfl * s.grid.lattice.h / v.sum;
   c.limiter = v.particle > v.wave ? "particle speed" : "wave speed";
-  if (const double limit = scene.cfl * cohesive_time(scene, s); limit < c.dt) {
+  if (const double limit = cfl * cohesive_time(scene, s); limit < c.dt) {
     c.dt = limit;
     c.limiter = "cohesive law";
   }
-  if (scene.dt_max < c.dt) {
-    c.dt = scene.dt_max;
+  if (dt_max < c.dt) {
+    c.dt = dt_max;
     c.limiter = "dt_max";
   }
+}
+
+void reduce_time_step(double factor, Clock& c) {
+  c.dt_factor *= factor;
+  c.stable_dt *= factor;
 }
 
 #define RIVEN_TIME_STEP(Real)                                                             \

@@ -21,4 +21,7 @@ Speeds measure_speeds(const exec::Space&, const Plan&, const State<Real, 2>&);
 template <class Real>
 void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
 
+/// From now on all time steps are `factor` times as long as they would be, the user's limit included.
+void reduce_time_step(double factor, Clock&);
+
 }  // namespace riven

@@ -1,5 +1,5 @@
 // What the particle passes notice on their way, at the price of a few additions: how far particles moved, the least
-// det F, and whether any number stopped being one.
+// det F, whether any number stopped being one, and what energy the transfer took.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,10 @@ namespace riven {
 template <class Real>
 struct TileWatch {
   static constexpr int lanes = exec::lanes;
-  alignas(64) Real move[lanes] = {};  ///< largest |dx| along an axis
-  alignas(64) Real sum[lanes] = {};   ///< finite as long as every move is
-  alignas(64) Real J[lanes];          ///< least det F; NaN sticks
+  alignas(64) Real move[lanes] = {};    ///< largest |dx| along an axis
+  alignas(64) Real sum[lanes] = {};     ///< finite as long as every move is
+  alignas(64) Real J[lanes];            ///< least det F; NaN sticks
+  alignas(64) double worn[lanes] = {};  ///< J
 
   RIVEN_INLINE TileWatch() {
     for (Real& j : J)
@@ -34,7 +35,12 @@ struct TileWatch {
 template <class Real, bool Moves, bool Dets>
 struct WatchTiles {
   using Seen = TileWatch<Real>;
-  explicit WatchTiles(StepWatch& w) : move(w.tile_move.data()), J(w.tile_J.data()), finite(w.tile_finite.data()) {}
+  /// `wears`: the transfer takes energy, which is to be noticed.
+  explicit WatchTiles(StepWatch& w, bool wears = false)
+      : move(w.tile_move.data()),
+        J(w.tile_J.data()),
+        finite(w.tile_finite.data()),
+        worn(wears ? w.tile_worn.data() : nullptr) {}
 
   RIVEN_INLINE void put(int tile, const Seen& t) const {
     if constexpr (Moves)
@@ -52,6 +58,11 @@ struct WatchTiles {
     }
     move[tile] = most;
     finite[tile] = all;
+    if (!worn)
+      return;
+    worn[tile] = 0;
+    for (const double taken : t.worn)
+      worn[tile] += taken;
   }
   RIVEN_INLINE void put_J(int tile, const Seen& t) const {
     Real least = t.J[0];
@@ -59,7 +70,7 @@ struct WatchTiles {
       least = least < t.J[k] || least != least ? least : t.J[k];
     J[tile] = least;
   }
-  double *move, *J, *finite;
+  double *move, *J, *finite, *worn;
 };
 
 /// Notices nothing.
@@ -68,15 +79,17 @@ struct WatchNothing {
   RIVEN_INLINE void put(int, const Seen&) const {}
 };
 
-/// Largest move and drift since the last sort; NaN if any particle's move is not finite.
+/// Largest move and drift since the last sort; NaN if any particle's move is not finite. Books what the transfer took.
 template <class Real>
 void watch_moves(State<Real, 2>& s) {
   StepWatch& w = s.watch;
-  double move = 0, sum = 0;
+  double move = 0, sum = 0, worn = 0;
   for (int t : s.particles.tiles.filled) {
     move = std::max(move, w.tile_move[t]);
     sum += w.tile_finite[t];
+    worn += w.tile_worn[t];
   }
+  s.ledger.energy.transfer += worn;
   w.largest_move = std::isfinite(sum) ? move : std::numeric_limits<double>::quiet_NaN();
   w.drift += w.largest_move;
 }

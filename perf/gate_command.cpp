@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A disturbance can only make a scene slower: one that seems to have lost is measured again this often.
-constexpr int more_tries = 2;
+constexpr int more_tries = 5;
 
 struct Options {
   fs::path baseline = RIVEN_BASELINE, program = counted_program();

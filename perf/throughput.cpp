@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
-#include "perf/median.hpp"
+#include "core/math/median.hpp"
 #include "perf/operations.hpp"
 #include "perf/runner.hpp"
 

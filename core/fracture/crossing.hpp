@@ -4,16 +4,21 @@
 //   area(1, 2, 3) = x1 (y2 - y3) + x2 (y3 - y1) + x3 (y1 - y2).
 // With particle 1, node 2 and the crack segment 3-4, the signs of (123) (124) (341) (342) tell that the path crosses
 // with the particle above for (-++-), and, where the node lies on the crack, for (-++0) on the segment, (0++0) on its
-// start and (-0+0) on its end; mirrored for below; nothing else crosses (the paper's Subtask 3). A crack is crossed
-// if it is crossed an odd number of times (Subtask 4).
+// start and (-0+0) on its end; mirrored for below (the paper's Subtask 3). A crack is crossed if it is crossed an odd
+// number of times (Subtask 4).
 //
-// That table looks at one segment. At a joint of two segments it would count a node on the joint twice and a path
+// That table lets paths from both sides cross a crack to a node that lies on it, and none from a particle that lies on
+// it: the node would have to be given to one side by a count of paths, and the particle would hold the faces together.
+// Here what lies on a crack is on one side of it:
+//   - a node counts as below, so that paths from above cross to it, and from below do not;
+//   - a particle counts as above.
+// Nor does the table look beyond one segment. At a joint of two it would count a node on the joint twice and a path
 // through the joint never, and so bond a crack whose joints fall on grid lines. A crack is one line, so here
 //   - a node on a joint is one crossing: that of the segment which ends there, or, if the particle is in line with
 //     that one, of the segment which starts there;
 //   - a path through a joint takes the joint as lying on the positive side of the path: it counts once where the crack
 //     passes from one side of the path to the other, and evenly where it only touches.
-// A path through a tip crosses nothing, and a particle on a segment does not cross it, as in the table.
+// A path through a tip crosses nothing, nor does one along the crack.
 // Near open tips more is needed: crack_path.hpp.
 #pragma once
 #include <cmath>
@@ -76,10 +81,10 @@ RIVEN_INLINE int orientation(Vec2 a, Vec2 b, Vec2 c) {
 
 /// How the path from particle p to node n crosses the segment point[0]-point[1] of a crack: +1 from above, -1 from
 /// below, 0 not at all. `first` and `last` tell that point[0] and point[1] are the crack's tips; unless `first`,
-/// point[-1] is read.
-RIVEN_INLINE int crossing(Vec2 p, Vec2 n, const Vec2* point, bool first, bool last) {
+/// point[-1] is read. `on_crack` is the side of a particle that lies on the segment: 0 for one that crosses nothing.
+RIVEN_INLINE int crossing(Vec2 p, Vec2 n, const Vec2* point, bool first, bool last, int on_crack = 1) {
   const Vec2 a = point[0], b = point[1];
-  const int from = orientation(a, b, p);
+  const int at = orientation(a, b, p), from = at == 0 ? on_crack : at;
   if (from == 0)
     return 0;
   const int to = orientation(a, b, n);
@@ -87,6 +92,8 @@ RIVEN_INLINE int crossing(Vec2 p, Vec2 n, const Vec2* point, bool first, bool la
     return 0;
   const int side_a = orientation(p, n, a), side_b = orientation(p, n, b);
   if (to == 0) {  // the node is in line with the segment: inside of it, on its end, on its start, or outside
+    if (at <= 0)
+      return 0;
     if (side_a * side_b < 0 || side_b == 0)
       return from;
     if (side_a == 0)

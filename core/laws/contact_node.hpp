@@ -1,5 +1,6 @@
-// All contacts of one node solved together. A node has up to four fields and up to four pairs of them; a field takes
-// part in two pairs where two cracks meet, so that pair after pair in one sweep satisfies only the last.
+// All contacts of one node solved together. A node that holds two cracks has up to four fields and up to four pairs of
+// them, one that holds three up to eight and twelve; a field takes part in two or three pairs where cracks meet, so
+// that pair after pair in one sweep satisfies only the last.
 //
 // Bonded fields are merged and move with their common velocity, exactly; so do sticking fields from the moment that
 // they approach each other. The impulses of the other pairs are accumulated and projected pair by pair (Gauss-Seidel on
@@ -18,19 +19,30 @@
 
 namespace riven {
 
-struct ContactNode {
-  static constexpr int fields = 4, most_pairs = 4;
+/// Pairs of fields that meet at a node which holds so many cracks, at most: those that differ on one crack only. A pair
+/// that differs on more meets only where at least as many of these are missing.
+constexpr int most_pairs_of(int cracks) {
+  return cracks << (cracks - 1);
+}
+
+template <int cracks>
+struct ContactNodeOf {
+  static constexpr int fields = 1 << cracks, most_pairs = most_pairs_of(cracks);
   static constexpr int most_sweeps = 2000;
   static constexpr double tolerance = 1e-14;  ///< of the node's sum of m |v|
 
   double mass[fields] = {};  ///< kg; 0 where a field is absent
   Vec2 momentum[fields];     ///< kg m/s
-  int group[fields] = {0, 1, 2, 3};
+  int group[fields];
   ContactPair pair[most_pairs];
   int pairs = 0;
   StickingPair sticking[most_pairs];
   int stickings = 0;
 
+  RIVEN_INLINE ContactNodeOf() {
+    for (int f = 0; f < fields; ++f)
+      group[f] = f;
+  }
   /// Makes two fields move as one.
   RIVEN_INLINE void bond(int f, int g) {
     const int from = std::max(group[f], group[g]), to = std::min(group[f], group[g]);
@@ -62,38 +74,47 @@ struct ContactNode {
   RIVEN_INLINE void add(const StickingPair& p) { sticking[stickings++] = p; }
 };
 
+using ContactNode = ContactNodeOf<2>;
+
 /// What contact made of a node.
-struct ContactOutcome {
-  Vec2 velocity[ContactNode::fields];  ///< m/s
-  Vec2 impulse[ContactNode::fields];   ///< change of momentum, kg m/s
-  bool changed[ContactNode::fields] = {};
-  double lambda[ContactNode::most_pairs] = {};  ///< normal impulse of each pair, kg m/s
-  double tau[ContactNode::most_pairs] = {};     ///< tangential impulse of each pair
-  bool stuck[ContactNode::most_pairs] = {};     ///< of ContactNode::sticking
+template <int cracks>
+struct ContactOutcomeOf {
+  using Node = ContactNodeOf<cracks>;
+  Vec2 velocity[Node::fields];  ///< m/s
+  Vec2 impulse[Node::fields];   ///< change of momentum, kg m/s
+  bool changed[Node::fields] = {};
+  double lambda[Node::most_pairs] = {};  ///< normal impulse of each pair, kg m/s
+  double tau[Node::most_pairs] = {};     ///< tangential impulse of each pair
+  bool stuck[Node::most_pairs] = {};     ///< of Node::sticking
   int sweeps = 0;
   bool converged = true;
 };
+using ContactOutcome = ContactOutcomeOf<2>;
 
 namespace detail {
 
 enum class PairState { apart, held, slides_forward, slides_back };
 
 /// The pairs between groups of fields, and the groups' motion.
+template <int cracks>
 struct ContactSweep {
-  static constexpr int most_rows = 2 * ContactNode::most_pairs;
+  using Node = ContactNodeOf<cracks>;
+  using Outcome = ContactOutcomeOf<cracks>;
+  static constexpr int most_rows = 2 * Node::most_pairs;
+  static constexpr int few_pairs = 4;  ///< whose combinations of states can all be tried
 
-  const ContactNode& node;
-  double tiny;                       ///< impulse below which nothing matters
-  double mass[ContactNode::fields];  ///< of the group that bears a field's number
-  Vec2 momentum[ContactNode::fields];
-  int pairs = 0;                        ///< those between different groups
-  int number[ContactNode::most_pairs];  ///< in node.pair
-  int above[ContactNode::most_pairs], below[ContactNode::most_pairs];
-  double reduced[ContactNode::most_pairs];
+  const Node& node;
+  double tiny;                ///< impulse below which nothing matters
+  double mass[Node::fields];  ///< of the group that bears a field's number
+  Vec2 momentum[Node::fields];
+  int pairs = 0;                 ///< those between different groups
+  int number[Node::most_pairs];  ///< in node.pair
+  int above[Node::most_pairs], below[Node::most_pairs];
+  double reduced[Node::most_pairs];
   double r[most_rows] = {};  ///< lambda and tau of each pair
 
-  RIVEN_INLINE ContactSweep(const ContactNode& n, double scale) : node(n), tiny(ContactNode::tolerance * scale) {
-    for (int f = 0; f < ContactNode::fields; ++f) {
+  RIVEN_INLINE ContactSweep(const Node& n, double scale) : node(n), tiny(Node::tolerance * scale) {
+    for (int f = 0; f < Node::fields; ++f) {
       mass[f] = node.group[f] == f ? node.group_mass(f) : 0;
       momentum[f] = node.group[f] == f ? node.group_momentum(f) : Vec2{};
     }
@@ -154,7 +175,7 @@ struct ContactSweep {
       if (count >= limit)
         return settled ? count : limit + 1;
       if (settled || count == next) {
-        const bool solved = solve_directly(count >= 64);
+        const bool solved = solve_directly(count >= 64 && pairs <= few_pairs);
         finished = finished || settled || solved;
         if (count == next)
           next *= 2;
@@ -182,7 +203,7 @@ struct ContactSweep {
   }
 
   using Matrix = double[most_rows][most_rows + 1];
-  using States = PairState[ContactNode::most_pairs];
+  using States = PairState[Node::most_pairs];
 
   /// Equations for the change of all impulses, given the pairs' states.
   RIVEN_INLINE void equations(const States& state, Matrix& A) const {
@@ -352,7 +373,7 @@ struct ContactSweep {
   }
 
   /// Merges the sticking fields that approach each other; true if there were any.
-  RIVEN_INLINE bool stick(ContactNode& n, ContactOutcome& out) const {
+  RIVEN_INLINE bool stick(Node& n, Outcome& out) const {
     bool any = false;
     for (int i = 0; i < node.stickings; ++i) {
       const StickingPair& s = node.sticking[i];
@@ -369,9 +390,9 @@ struct ContactSweep {
   }
 
   /// Final velocities from sums of the final impulses, so that no rounding of the sweeps is left behind.
-  RIVEN_INLINE void finish(ContactOutcome& out) const {
-    Vec2 given[ContactNode::fields];
-    bool touched[ContactNode::fields] = {};
+  RIVEN_INLINE void finish(Outcome& out) const {
+    Vec2 given[Node::fields];
+    bool touched[Node::fields] = {};
     for (int k = 0; k < pairs; ++k) {
       out.lambda[number[k]] = r[2 * k];
       out.tau[number[k]] = r[2 * k + 1];
@@ -382,7 +403,7 @@ struct ContactSweep {
       given[below[k]] += impulse;
       touched[above[k]] = touched[below[k]] = true;
     }
-    for (int f = 0; f < ContactNode::fields; ++f) {
+    for (int f = 0; f < Node::fields; ++f) {
       if (!(node.mass[f] > 0))
         continue;
       const int g = node.group[f];
@@ -405,21 +426,23 @@ struct ContactSweep {
 }  // namespace detail
 
 /// Solves the contacts of a node. Fields without mass are left alone.
-RIVEN_INLINE ContactOutcome solve(ContactNode node) {
-  ContactOutcome out;
+template <int cracks>
+RIVEN_INLINE ContactOutcomeOf<cracks> solve(ContactNodeOf<cracks> node) {
+  using Node = ContactNodeOf<cracks>;
+  ContactOutcomeOf<cracks> out;
   double scale = 0;
-  for (int f = 0; f < ContactNode::fields; ++f)
+  for (int f = 0; f < Node::fields; ++f)
     if (node.mass[f] > 0)
       scale += norm(node.momentum[f]);
   if (node.stickings > 0)
-    detail::ContactSweep(node, scale).stick(node, out);
+    detail::ContactSweep<cracks>(node, scale).stick(node, out);
   for (bool again = true; again;) {
-    const ContactNode now = node;  // `stick` merges fields of `node` while the sweep looks at this one
-    detail::ContactSweep sweep(now, scale);
+    const Node now = node;  // `stick` merges fields of `node` while the sweep looks at this one
+    detail::ContactSweep<cracks> sweep(now, scale);
     if (sweep.pairs > 0) {
-      const int count = sweep.sweep(ContactNode::most_sweeps);
-      out.converged = count <= ContactNode::most_sweeps;
-      out.sweeps += std::min(count, int{ContactNode::most_sweeps});  // a copy: std::min takes an address
+      const int count = sweep.sweep(Node::most_sweeps);
+      out.converged = count <= Node::most_sweeps;
+      out.sweeps += std::min(count, int{Node::most_sweeps});  // a copy: std::min takes an address
     }
     again = sweep.stick(node, out);
     if (!again)

@@ -22,6 +22,11 @@ struct Axis {
   Real g[Width];
 };
 
+/// The least weight of a node whose gradient is not zero. A particle right on a node would give the next one none: that
+/// node, without mass, would lose the force on it and have no velocity to strain the particle by.
+template <class Real>
+inline constexpr Real least_weight = Real(0x1p-52);
+
 /// What the one-dimensional functions need to know about a particle and the grid along one axis.
 template <class Real>
 struct AxisSetting {
@@ -40,7 +45,7 @@ struct Linear {
   template <class Real>
   static RIVEN_INLINE Axis<Real, 2> axis(double X, const AxisSetting<Real>&) {
     const double f = std::floor(X);
-    const Real r = Real(X - f);
+    const Real least = least_weight<Real>, r = std::max(Real(X - f), least);  // a copy: std::max takes an address
     return {static_cast<int>(f), {Real(1) - r, r}, {Real(-1), Real(1)}};
   }
   /// How far X may move, in cells, before it leaves its cell.
@@ -95,7 +100,8 @@ struct BSpline {
     // at a wall the functions become linear in the outer half cell; a particle that has slipped past the wall
     // keeps non-negative masses by being taken at the wall
     const bool low = node <= a.wall_lower, high = node >= a.wall_upper;
-    const Real in = std::min(Real(1), std::max(Real(0), r)), out = std::min(Real(1), std::max(Real(0), -r));
+    const Real least = least_weight<Real>;
+    const Real in = std::min(Real(1), std::max(least, r)), out = std::min(Real(1), std::max(least, -r));
     s0 = low ? Real(0) : high ? out : s0;
     s1 = low ? Real(1) - in : high ? Real(1) - out : s1;
     s2 = low ? in : high ? Real(0) : s2;

@@ -50,6 +50,7 @@ Plan make_plan(const Scene& scene) {
   p.scatter = scene.deterministic ? ScatterKind::ordered : scene.scatter;
   p.cracks = !scene.cracks.empty();
   if (p.cracks) {
+    p.contact_waits = scene.contact_rules.when == ContactWhen::closing;
     for (const CrackLine& c : scene.cracks) {
       const ContactLaw law = c.contact.value_or(scene.contact).law;
       if (law == ContactLaw::ignored)
@@ -63,6 +64,7 @@ Plan make_plan(const Scene& scene) {
           scene.contact_rules.detection == ContactDetection::displacement || law == ContactLaw::interface;
     }
   }
+  p.contact_waits &= p.contact;
   for (int c = 0; c < static_cast<int>(scene.cracks.size()); ++c)
     p.growth |= growth_rule(scene, c) != nullptr;
   p.fracture = p.growth || (p.cracks && scene.fracture.asked);
@@ -75,8 +77,9 @@ Plan make_plan(const Scene& scene) {
   p.body_force = scene.body_force[0] || scene.body_force[1];
   p.grid_damping = scene.grid_damping.has_value();
   p.particle_damping = scene.particle_damping.has_value();
-  p.displacement_probe = std::any_of(scene.probes.begin(), scene.probes.end(),
-                                     [](const Probe& q) { return q.kind == Probe::Kind::displacement; });
+  p.displacement_probe = std::any_of(scene.probes.begin(), scene.probes.end(), [](const Probe& q) {
+    return q.kind == Probe::Kind::displacement || q.kind == Probe::Kind::displacement_error;
+  });
   return p;
 }
 
@@ -87,7 +90,7 @@ std::vector<std::string> Plan::effects() const {
       names.emplace_back(name);
   };
   say(cracks, "cracks");
-  say(contact, "contact");
+  say(contact, contact_waits ? "contact when faces close" : "contact");
   say(contact_area, "imperfect interface");
   say(fracture, "J");
   say(growth, "growth");

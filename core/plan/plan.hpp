@@ -24,6 +24,7 @@ struct Plan {
   bool contact = false;           ///< some crack's faces may touch
   bool contact_volume = false;    ///< detection by volume, or interpenetration statistics, asks for nodal volumes
   bool contact_position = false;  ///< detection by displacement, or an interface law, asks for positions
+  bool contact_waits = false;     ///< contact.when = "auto": tried now and then until faces touch
   bool contact_area = false;      ///< an interface law asks for the length of crack at each node
   bool fracture = false;          ///< J and K at every tip
   bool growth = false;            ///< some crack grows

@@ -40,6 +40,7 @@ RIVEN_NAMES(ContactLaw, {{ContactLaw::ignored, "ignored"},
 RIVEN_NAMES(ContactDetection, {{ContactDetection::volume, "volume"},
                                {ContactDetection::velocity, "velocity"},
                                {ContactDetection::displacement, "displacement"}})
+RIVEN_NAMES(ContactWhen, {{ContactWhen::always, "always"}, {ContactWhen::closing, "auto"}})
 RIVEN_NAMES(TractionKind, {{TractionKind::pressure, "pressure"},
                            {TractionKind::triangular, "triangular"},
                            {TractionKind::trilinear, "trilinear"},
@@ -55,14 +56,17 @@ RIVEN_NAMES(Load::Edge, {{Load::Edge::left, "left"},
                          {Load::Edge::right, "right"},
                          {Load::Edge::bottom, "bottom"},
                          {Load::Edge::top, "top"}})
-RIVEN_NAMES(Load::Kind, {{Load::Kind::force, "force"}, {Load::Kind::traction, "traction"}})
+RIVEN_NAMES(Load::Kind, {{Load::Kind::force, "force"},
+                         {Load::Kind::traction, "traction"},
+                         {Load::Kind::acceleration, "acceleration"}})
 RIVEN_NAMES(Probe::Kind, {{Probe::Kind::crack_opening, "crack_opening"},
                           {Probe::Kind::displacement, "displacement"},
                           {Probe::Kind::velocity, "velocity"},
                           {Probe::Kind::stress, "stress"},
                           {Probe::Kind::reaction, "reaction"},
                           {Probe::Kind::travel, "travel"},
-                          {Probe::Kind::mean_stress, "mean_stress"}})
+                          {Probe::Kind::mean_stress, "mean_stress"},
+                          {Probe::Kind::displacement_error, "displacement_error"}})
 RIVEN_NAMES(exec::Kind,
             {{exec::Kind::serial, "serial"}, {exec::Kind::openmp, "openmp"}, {exec::Kind::stdpar, "stdpar"}})
 #undef RIVEN_NAMES

@@ -1,7 +1,6 @@
 // What the user wrote, in SI units, checked for meaning but not yet planned. Plain data: io/ fills it,
 // core/plan turns it into tasks and arrays. No member depends on how it was written down.
 #pragma once
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,16 +10,9 @@
 
 #include "core/exec/space.hpp"
 #include "core/math/vec.hpp"
+#include "core/scene/field.hpp"
 
 namespace riven {
-
-/// A quantity over time in SI: value * shape(t). A constant has no shape.
-struct TimeFunction {
-  double value = 0;
-  std::function<double(double)> shape;  ///< dimensionless, of t in s; empty means 1
-  std::string text;                     ///< as written, for `riven plan`
-  double operator()(double t) const { return shape ? value * shape(t) : value; }
-};
 
 enum class ShapeFunction { linear, ugimp, bspline };
 enum class Transfer { flip, pic, xpic, fmpm };  ///< pic: FLIP blended with a fraction of PIC
@@ -33,6 +25,7 @@ enum class CrackMotion { surfaces, center_of_mass };  ///< how the crack plane m
 enum class SurfaceUpdate { xpic, flip, pic };         ///< how the crack surfaces move
 enum class ContactLaw { ignored, bonded, stick, frictionless, coulomb, interface };
 enum class ContactDetection { volume, velocity, displacement };  ///< displacement: velocity and displacement
+enum class ContactWhen { always, closing };                      ///< closing: only while some faces touch
 enum class Sidecar { none, vtp };
 enum class JMethod { pijc, fijc, fijc_adaptive };  ///< what J does where other cracks cross the contour
 enum class AreaTerm { automatic, never, always };  ///< automatic: for contours of more than 10 cells
@@ -74,10 +67,11 @@ struct Body {
   int material = 0;  ///< index into Scene::materials
   Region region;
   std::vector<Region> holes;
-  int particles_per_cell = 2;  ///< along each axis
-  double thickness = 0;        ///< m; 0 means the scene's
-  Vec2 velocity;               ///< initial, m/s
-  double spin = 0;             ///< initial angular velocity about the body's centre of mass, rad/s
+  int particles_per_cell = 2;              ///< along each axis
+  double thickness = 0;                    ///< m; 0 means the scene's
+  Vec2 velocity;                           ///< initial, m/s
+  std::optional<Field> velocity_field[2];  ///< initial, varying over the body, added to it, m/s
+  double spin = 0;                         ///< initial angular velocity about the body's centre of mass, rad/s
 };
 
 /// A velocity component prescribed on grid nodes inside a box (a line is a box without width).
@@ -103,16 +97,16 @@ struct Grip {
   std::optional<TimeFunction> velocity[2];  ///< m/s; an empty component is free
 };
 
-/// A force shared evenly by the particles inside the region, or a traction on the particles along one
-/// edge of a body.
+/// A force shared evenly by the particles inside the region, a traction on the particles along one edge of a body, or
+/// an acceleration of all particles inside the region.
 struct Load {
-  enum class Kind { force, traction };
+  enum class Kind { force, traction, acceleration };
   enum class Edge { left, right, bottom, top };
   std::string name;
   Kind kind = Kind::force;
   Region region;            ///< which particles (force; and traction, as the part of the edge that is loaded)
   Edge edge = Edge::right;  ///< traction only: particles that have no neighbour on this side
-  TimeFunction value[2];    ///< N in all (force), or Pa (traction)
+  Field value[2];           ///< N in all (force), Pa (traction), or m/s^2 (acceleration)
 };
 
 struct ContactSettings {
@@ -123,6 +117,7 @@ struct ContactSettings {
 };
 
 struct ContactRules {
+  ContactWhen when = ContactWhen::always;
   ContactDetection detection = ContactDetection::displacement;
   double v_sep = 0.9;      ///< volume detection: below this relative volume the faces are apart
   double v_contact = 1.1;  ///< above it they touch
@@ -151,6 +146,12 @@ struct FractureRules {
   bool interaction = true;  ///< K by the interaction integral, too, whenever J is reported
 };
 
+/// J and K of the same tips by other rules, from the same steps: for the history alone, growth does not see them.
+struct FractureReading {
+  std::string name;
+  FractureRules rules;
+};
+
 /// When and where a crack grows.
 struct GrowthRule {
   GrowthCriterion criterion = GrowthCriterion::k_max;
@@ -172,14 +173,15 @@ struct CrackLine {
 
 /// A named result read from the fields at the end and at each history row.
 struct Probe {
-  enum class Kind { crack_opening, displacement, velocity, stress, reaction, travel, mean_stress };
+  enum class Kind { crack_opening, displacement, velocity, stress, reaction, travel, mean_stress, displacement_error };
   std::string name;
   Kind kind = Kind::crack_opening;
   Vec2 point;          ///< nearest particle (at the start) for displacement, velocity, stress
   int axis = 1;        ///< component
   int axis2 = 1;       ///< stress: second index
   std::string target;  ///< crack or grip name
-  double over = 1;     ///< the result is divided by this: an area, m^2 (reaction), or a length, m (travel)
+  double over = 1;     ///< the result is divided by this: an area, m^2 (reaction), or a length, m (travel, error)
+  Field exact[2];      ///< displacement_error: what the displacement should be, m
 };
 
 struct Output {
@@ -188,18 +190,24 @@ struct Output {
   Sidecar sidecar = Sidecar::none;
   std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
   double fringe_constant = 0;       ///< 1/Pa (Nairn 2003, eq. 23)
+  double checkpoint_every = 600;    ///< s of wall time between checkpoints; 0: none but when the run is interrupted
+  int checkpoint_steps = 0;         ///< steps between checkpoints, too; 0: not by steps
 };
 
-/// Where a run stops because it went wrong.
+/// Where a run has gone wrong, and what it does then.
 struct Limits {
   double energy_growth = 0.05;  ///< largest (kinetic + strain + sinks - external work) over the largest energy so far
+  int retries = 0;              ///< how often the run goes back to its last checkpoint when it went wrong
+  double retry_cfl = 0.5;       ///< by which the time step is multiplied each time
 };
 
 struct Scene {
   std::string name;  ///< file name without its ending
   std::string title;
   std::string source_path;
-  std::string source_text;  ///< the scene as read, with --set applied
+  std::string source_text;                   ///< the scene as read, with --set applied
+  std::map<std::string, double> constants;   ///< that all shapes know, in SI
+  std::map<std::string, std::string> files;  ///< contents of the files that it names, by the names it gives them
 
   // solver
   double end_time = 0;  ///< s
@@ -238,6 +246,7 @@ struct Scene {
   CrackMotion crack_motion = CrackMotion::surfaces;
   SurfaceUpdate surface_update = SurfaceUpdate::xpic;
   FractureRules fracture;
+  std::vector<FractureReading> readings;
   std::optional<GrowthRule> growth;  ///< of all cracks that do not say otherwise
 
   std::vector<Probe> probes;

@@ -45,8 +45,12 @@ struct Constraints {
   std::vector<GripBlock> grips;
   exec::Array<Constraint> list;  ///< of this step
   exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
-  exec::Array<double> carried;   ///< [8 list] change of momentum of each field and component before the update
-  exec::Array<int> at_node;      ///< [nodes] index into list + 1 while the list is made, else 0
+  /// [2 fields list] kg m/s, change of momentum of each field and component before the update, in it, and after the
+  /// second extrapolation.
+  exec::Array<double> change[3];
+  exec::Array<int> at_node;  ///< [nodes] index into list + 1 while the list is made, else 0
+
+  int first_grip() const { return static_cast<int>(owners.size() - grips.size()); }  ///< owners from there on are grips
 };
 
 }  // namespace riven

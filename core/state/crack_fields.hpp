@@ -10,25 +10,41 @@ namespace riven {
 
 enum class Side : std::uint8_t { none = 0, above = 1, below = 2 };
 
+inline constexpr int most_held = 3;  ///< cracks that a node can hold
+
 /// What one node that may see cracks knows after `assign`. crack[k] < 0 where there is no such crack.
-/// Field = 1 (crosses crack[0]) + 2 (crosses crack[1]). side[k] is where the particles that cross crack k
-/// come from; the node itself lies on the opposite side. Of two cracks the lower number is first.
+/// Field = 1 (crosses crack[0]) + 2 (crosses crack[1]) + 4 (crosses crack[2]). side[k] is where the particles that
+/// cross crack k come from; the node itself lies on the opposite side. Cracks are in the order of their numbers.
 struct alignas(32) NodeCracks {
   int node = -1;
-  int extra = 0;  ///< CrackFields::extra of the node
-  int sees = -1;  ///< the crack that the node may see, or -1 where there are several
-  int crack[2] = {-1, -1};
-  Side side[2] = {Side::none, Side::none};
-};
+  int extra = 0;   ///< CrackFields::extra of the node
+  int sees = -1;   ///< the crack that the node may see, -1 where there are two, -2 where there are more
+  int third = -1;  ///< number among the nodes that may see three cracks or more, or -1
+  int crack[most_held] = {-1, -1, -1};
+  Side side[most_held] = {Side::none, Side::none, Side::none};
 
-/// Normals of the cracks that a node holds, averaged around it, of unit length, from above to below.
+  /// Which of the held cracks is this one, or -1.
+  RIVEN_INLINE int which(int c) const { return crack[0] == c ? 0 : crack[1] == c ? 1 : crack[2] == c ? 2 : -1; }
+  /// Velocity fields for which the node has slots.
+  RIVEN_INLINE int room() const { return sees >= 0 ? 2 : sees == -1 ? 4 : 8; }
+  /// Those that it uses where it holds cracks.
+  RIVEN_INLINE int fields() const { return crack[1] < 0 ? 2 : crack[2] < 0 ? 4 : 8; }
+};
+static_assert(sizeof(NodeCracks) == 32);
+
+/// Normals of the first two cracks that a node holds, averaged around it, of unit length, from above to below.
 struct alignas(64) NodeNormals {
   Vec2 now[2];
   Vec2 first[2];  ///< of the cracks' first positions
 };
 
-/// What the crossing of a crack from one side means at a node, where it is not field 1 or 2.
-enum CrossingVerdict : std::uint8_t { other_side = 4, third_crack = 8 };
+/// The same of the third.
+struct ThirdNormal {
+  Vec2 now, first;
+};
+
+/// What the crossing of a crack from one side means at a node, where it is not field 1, 2 or 4.
+enum CrossingVerdict : std::uint8_t { other_side = 8, fourth_crack = 16 };
 
 /// The path from a particle to one of its nodes crosses a crack.
 struct CrossingRecord {
@@ -113,12 +129,14 @@ struct CrackLists {
 };
 
 struct CrackFields : CrackLists {
-  static constexpr int bits = 2;          ///< of a field number
+  static constexpr int bits = most_held;  ///< of a field number
+  static_assert(9 * bits <= 32);          // all neighbours of a particle in one of `fields`
   static_assert(exec::lanes <= 16);       // bits in `crossing`
   static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
 
-  exec::Array<NodeNormals> normals;  ///< [flagged]
-  exec::Array<int> extra;            ///< [nodes] see grid.hpp
+  exec::Array<NodeNormals> normals;        ///< [flagged]
+  exec::Array<ThirdNormal> third_normals;  ///< [nodes that may see three cracks or more] see NodeCracks::third
+  exec::Array<int> extra;                  ///< [nodes] see grid.hpp
   int extra_slots = 0;
 
   CrackLists former;      ///< as the last trace knew them
@@ -147,11 +165,11 @@ struct CrackFields : CrackLists {
   long slots_used = 0;
   long warning_both_sides = 0;  ///< warning 1 (see assign_fields.hpp), summed over steps: pairs that cross a crack from
                                 ///< the side which fewer pairs of the node come from
-  long warning_third_crack = 0;  ///< warning 2: pairs that cross a crack beyond the two held by the node
-  Vec2 warning_place[2];         ///< the node at which each was seen first
+  long warning_fourth_crack = 0;  ///< warning 2: pairs that cross a crack beyond those held by the node
+  Vec2 warning_place[2];          ///< the node at which each was seen first
 
   static RIVEN_INLINE int field_of(std::uint32_t word, int neighbour) {
-    return static_cast<int>(word >> (bits * neighbour) & 3u);
+    return static_cast<int>(word >> (bits * neighbour) & ((1u << bits) - 1));
   }
   /// Number of the block that begins with particle `first`, in the marked tile of this number.
   static RIVEN_INLINE long block_of(long first, long marked) { return first / exec::lanes + marked; }

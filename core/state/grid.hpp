@@ -1,9 +1,9 @@
 // The background grid: a regular Cartesian lattice of nodes, data in slots.
 //
-// Field 0 of node n is slot n. Fields 1..3 of a node that may see a crack follow behind the plain grid:
+// Field 0 of node n is slot n. Fields 1..7 of a node that may see a crack follow behind the plain grid:
 //   slot(n, f) = n_nodes + extra[n] + f - 1,   f >= 1,
 // with extra[n] = -1 where no crack can be seen. A node that can see one crack owns one extra slot, a node that
-// can see two or more owns three.
+// can see two owns three, one that can see more owns seven.
 #pragma once
 #include <cmath>
 

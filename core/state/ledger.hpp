@@ -9,22 +9,27 @@ struct Energy {
   double cohesive = 0;             ///< stored in cohesive laws, to be given back
   double external_work = 0;        ///< done on the bodies by loads, body forces, prescribed motion
   double damping = 0;              ///< taken by grid and particle damping
-  /// Taken by contact (friction and impact) on the grid. XPIC and FMPM of a higher order return some of it, as they
-  /// give particles more of a velocity that varies within a cell than the grid has: a gain in numerical(), though the
-  /// total stays.
-  double contact = 0;
+  double contact = 0;              ///< taken by contact (friction and impact) and by what ends cracks between nodes
+  double capture = 0;              ///< taken by prescribed motion, as by an impact, beyond the work of its reactions
+  /// Taken by the transfer from grid to particles: what PIC, XPIC and FMPM wear off waves of a few cells, contact's
+  /// early impulses left out. FLIP takes none.
+  double transfer = 0;
   double fracture = 0;   ///< released by crack growth, J times new area; see below
   double debonding = 0;  ///< taken by damage of cohesive laws
   double first = 0;      ///< total at the start
   double largest = 0;    ///< largest total, or work done, so far
 
   double total() const { return kinetic + strain + cohesive; }
-  /// What is left over: energy that the discretisation made (> 0) or lost. What a crack takes by growing is in here as
-  /// a loss, not on its own: a new segment changes no particle's energy. It lets go of the stress across it, and that
-  /// energy runs away as waves of a few cells, which the transfers then wear down as they do all such waves, or keep.
-  /// `fracture` tells how much of the loss is due to growth; where -numerical() is less, the rest is still in waves.
-  double numerical() const { return total() + damping + contact + debonding - external_work - first; }
-  double relative_error() const { return largest > 0 ? numerical() / largest : 0; }
+  /// Energy that the scheme made (> 0) or lost: the transfer's part, and what is left over. What a crack takes by
+  /// growing is in here as a loss, not on its own: a new segment changes no particle's energy. It lets go of the stress
+  /// across it, and that energy runs away as waves of a few cells, which the transfers then wear down as they do all
+  /// such waves, or keep. `fracture` tells how much of the loss is due to growth; where `transfer` is less, the rest is
+  /// still in waves.
+  double numerical() const { return total() + damping + contact + capture + debonding - external_work - first; }
+  /// The part of it that nothing accounts for.
+  double unaccounted() const { return numerical() + transfer; }
+  /// unaccounted() over the largest energy or work so far.
+  double relative_error() const { return largest > 0 ? unaccounted() / largest : 0; }
 };
 
 struct Momentum {

@@ -8,17 +8,20 @@
 
 namespace riven {
 
-/// One [[load]]: the particles it acts on, by stable id, and the share of the force (or area) that each carries.
+/// One [[load]]: the particles it acts on, by stable id, and the share of the force (or area, or mass) that each
+/// carries.
 struct LoadGroup {
-  TimeFunction value[2];
+  Field value[2];
   std::vector<int> id;
-  std::vector<double> share;  ///< force: fraction; traction: area, m^2
+  std::vector<double> share;  ///< force: fraction; traction: area, m^2; acceleration: mass, kg
+  Places first;               ///< where they start; empty where the load is the same everywhere
 };
 
 struct Loads {
   std::vector<LoadGroup> groups;
   std::vector<int> position;     ///< [particles] index of each id, remade when the particles are sorted
-  std::vector<Vec2> applied_at;  ///< where each loaded particle was when its force was applied, group after group
+  std::vector<Vec2> force;       ///< N, on each loaded particle in this step, group after group
+  std::vector<Vec2> applied_at;  ///< where each of them was when it was applied
 };
 
 }  // namespace riven

@@ -46,6 +46,27 @@ struct Seed {
   int body;
 };
 
+/// What a body's velocity field adds at each of its points.
+std::vector<Vec2> field_velocities(const Body& body, const std::vector<Vec2>& points) {
+  std::vector<Vec2> all(points.size());
+  if (!body.velocity_field[0] && !body.velocity_field[1])
+    return all;
+  Places places;
+  for (const Vec2 p : points)
+    places.add(p);
+  const auto component = [&](int axis) { return body.velocity_field[axis].value_or(Field{}).at(0, places); };
+  const std::vector<double> v[2] = {component(0), component(1)};
+  for (size_t i = 0; i < points.size(); ++i) {
+    all[i] = {v[0][i], v[1][i]};
+    if (!std::isfinite(v[0][i] + v[1][i]))
+      fail({Exit::bad_input, "the first velocity is not a number everywhere", "body \"" + body.name + "\"",
+            std::to_string(v[0][i]) + ", " + std::to_string(v[1][i]) + " m/s at " + std::to_string(points[i].x) + ", " +
+                std::to_string(points[i].y) + " m",
+            "finite in the whole body", ""});
+  }
+  return all;
+}
+
 /// Particles of all bodies, with their first velocities.
 std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
   std::vector<Seed> seeds;
@@ -62,8 +83,10 @@ std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
     const double edge = lattice.h / body.particles_per_cell;
     const double mass = scene.materials[static_cast<size_t>(body.material)].density * edge * edge *
                         (body.thickness > 0 ? body.thickness : scene.thickness);
-    for (const Vec2 p : points)
-      seeds.push_back({p, body.velocity + body.spin * turned(p - center), mass, static_cast<int>(b)});
+    const std::vector<Vec2> field = field_velocities(body, points);
+    for (size_t i = 0; i < points.size(); ++i)
+      seeds.push_back(
+          {points[i], body.velocity + body.spin * turned(points[i] - center) + field[i], mass, static_cast<int>(b)});
   }
   return seeds;
 }
@@ -129,8 +152,10 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
   }
-  if (plan.fracture)
+  if (plan.fracture) {
     s.tips = make_tips(scene);
+    s.readings.assign(scene.readings.size(), s.tips);
+  }
   size_grid(plan, s);
 }
 
@@ -192,8 +217,9 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("cracks: motion", f.hashed, f.traced, f.crack_move);
   add("cracks: crossings", f.records, f.limit, f.block_limit, f.tiles);
   add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
-      f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.held, f.candidate_start,
-      f.candidate, f.segment_start, f.node_segment, f.clearance, f.turned, f.tally, f.recount, f.verdict);
+      f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.third_normals, f.held,
+      f.candidate_start, f.candidate, f.segment_start, f.node_segment, f.clearance, f.turned, f.tally, f.recount,
+      f.verdict);
   return list;
 }
 

@@ -32,6 +32,7 @@ struct StepWatch {
   exec::Array<double> tile_move;    ///< [tiles] largest |dx| of a particle along an axis, m
   exec::Array<double> tile_J;       ///< [tiles] least det F
   exec::Array<double> tile_finite;  ///< [tiles] sum of |dx|: not finite if any particle's is not
+  exec::Array<double> tile_worn;    ///< [tiles] J, taken by the transfer; of transfers that take some
   double largest_move = 0;          ///< m, this step
   double least_J = 1;
   double drift = 0;    ///< sum of largest_move since the particles were sorted, m
@@ -46,6 +47,9 @@ struct Clock {
   double stable_dt = 0;      ///< of the last measurement of speeds, before the run's end shortens it
   const char* stable_limiter = "";
   double measured_speed = 0;  ///< m/s, of the fastest particle when speeds were measured
+  double dt_factor = 1;       ///< by which retries have multiplied dt
+
+  double middle() const { return time + 0.5 * dt; }  ///< s, of the step
 };
 
 template <class Real, int Dim>
@@ -54,8 +58,9 @@ struct State {
   Grid<Real> grid;
   Cracks cracks;
   CrackFields fields;
-  std::vector<Tip> tips;           ///< where the plan asks for J
-  std::vector<CrackEvent> events;  ///< so far, in order of time
+  std::vector<Tip> tips;                   ///< where the plan asks for J
+  std::vector<std::vector<Tip>> readings;  ///< [Scene::readings] the same tips with J and K by these rules
+  std::vector<CrackEvent> events;          ///< so far, in order of time
   LawTables<Real> laws;
   exec::Array<DomainSetting<Real, Dim>> domains;  ///< [bodies]
   exec::Array<double> specific_area;              ///< [bodies] first area of particles, m^2 per kg

@@ -37,9 +37,18 @@ struct Tip {
   bool sound = true;               ///< false: no contour was found that J can be trusted on (a warning was counted)
 };
 
-/// Something that happened at a tip.
+/// Something that happened at a tip; or to the whole run, of no crack then.
 struct CrackEvent {
-  enum class Kind { start, arrest, join, exit, meet };
+  enum class Kind {
+    start,
+    arrest,
+    join,
+    exit,
+    meet,
+    close,
+    open,
+    retry
+  };  ///< close, open: faces, where contact waits for them; retry: the run went wrong and goes back
   Kind kind = Kind::start;
   long step = 0;
   double time = 0;  ///< s

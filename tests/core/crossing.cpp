@@ -55,16 +55,21 @@ TEST(Crossing, FollowsTheTableOfSignsForOneSegment) {
   EXPECT_EQ(cross_it({1, 1}, {0, 0}), +1);    // (0++0) node on the start
   EXPECT_EQ(cross_it({1, 1}, {2, 0}), +1);    // (-0+0) node on the end
   EXPECT_EQ(cross_it({1, -1}, {1, 1}), -1);
-  EXPECT_EQ(cross_it({1, -1}, {1.5, 0}), -1);
-  EXPECT_EQ(cross_it({1, -1}, {0, 0}), -1);
-  EXPECT_EQ(cross_it({1, -1}, {2, 0}), -1);
+  // what lies on the crack is on one side of it: nodes below, particles above
+  EXPECT_EQ(cross_it({1, -1}, {1.5, 0}), 0);
+  EXPECT_EQ(cross_it({1, -1}, {0, 0}), 0);
+  EXPECT_EQ(cross_it({1, -1}, {2, 0}), 0);
+  EXPECT_EQ(cross_it({1, 0}, {1, -1}), +1);
+  EXPECT_EQ(cross_it({1, 0}, {-1, -1}), +1);
+  EXPECT_EQ(cross_it({1, 0}, {1, 1}), 0);
+  EXPECT_EQ(crossing({1, 0}, {1, -1}, s.data(), true, true, 0), 0);
   // all else does not cross
   EXPECT_EQ(cross_it({1, 1}, {1, .5}), 0);
   EXPECT_EQ(cross_it({3, 1}, {3, -1}), 0);
   EXPECT_EQ(cross_it({1, 1}, {3, 0}), 0);   // node in line with the segment, outside
   EXPECT_EQ(cross_it({0, 1}, {0, -1}), 0);  // path through the start
   EXPECT_EQ(cross_it({1, 1}, {3, -1}), 0);  // path through the end
-  EXPECT_EQ(cross_it({1, 0}, {1, -1}), 0);  // particle on the segment
+  EXPECT_EQ(cross_it({3, 0}, {1, -1}), 0);  // particle in line with the segment, outside
   EXPECT_EQ(cross_it({0, 0}, {1, -1}), 0);  // particle on a tip
   EXPECT_EQ(cross_it({-1, 0}, {3, 0}), 0);  // path along the segment
   EXPECT_EQ(cross_it({-1, 0}, {1, 0}), 0);
@@ -94,10 +99,11 @@ TEST(Crossing, AtAKinkCountsOnceOrEvenly) {
   EXPECT_EQ(cross_line(roof, {-1, 0}, {1, 0}), Side::none);  // touches the joint from outside
   EXPECT_EQ(cross_line(roof, {1, 0}, {-1, 0}), Side::none);
   EXPECT_EQ(cross_line(roof, {0, 1}, {0, 0}), Side::above);  // node on the joint
-  EXPECT_EQ(cross_line(roof, {0, -1}, {0, 0}), Side::below);
-  EXPECT_EQ(cross_line(roof, {1, 1}, {0, 0}), Side::above);       // in line with the first segment
-  EXPECT_EQ(cross_line(roof, {-1, 1}, {0, 0}), Side::above);      // in line with the second
-  EXPECT_EQ(cross_line(roof, {0, 0}, {0, -1}), Side::none);       // particle on the joint
+  EXPECT_EQ(cross_line(roof, {0, -1}, {0, 0}), Side::none);
+  EXPECT_EQ(cross_line(roof, {1, 1}, {0, 0}), Side::above);   // in line with the first segment
+  EXPECT_EQ(cross_line(roof, {-1, 1}, {0, 0}), Side::above);  // in line with the second
+  EXPECT_EQ(cross_line(roof, {0, 0}, {0, -1}), Side::above);  // particle on the joint
+  EXPECT_EQ(cross_line(roof, {0, 0}, {0, 1}), Side::none);
   const std::vector<Vec2> step{{0, -1}, {0, 0}, {1, 0}, {1, 1}};  // a path along the middle segment
   EXPECT_EQ(cross_line(step, {-1, 0}, {2, 0}), Side::above);
   EXPECT_EQ(cross_line(step, {2, 0}, {-1, 0}), Side::below);

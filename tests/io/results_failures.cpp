@@ -1,7 +1,6 @@
 // Full disks, folders that cannot be written, kills: what was finished stays, and the message says what happened.
 #include <gtest/gtest.h>
 #include <malloc.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,41 +16,11 @@
 #include "io/peak_memory.hpp"
 #include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
+#include "tests/io/faults.hpp"
 #include "tests/io/results_sample.hpp"
 
 namespace riven {
 namespace {
-
-/// The message of the Error (file) that `act` must throw, or what went wrong instead.
-std::string file_error(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    return e.code() == Exit::file ? e.what() : "another exit code: " + std::string(e.what());
-  }
-  return "no error";
-}
-
-/// Runs in a process of its own in which no file may grow beyond `bytes`; true when `act` returns true and the
-/// process ends in good order.
-bool with_small_disk(rlim_t bytes, const std::function<bool()>& act) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, bytes};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    bool good = false;
-    try {
-      good = act();
-    } catch (const std::exception& e) {
-      std::fprintf(stderr, "%s\n", e.what());
-    }
-    std::exit(good ? 0 : 1);  // with the clean-up of the HDF5 library
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
 
 PolyData block(int n) {
   PolyData d;
@@ -152,6 +121,21 @@ TEST(ResultsFailures, AFullDiskLeavesTheHistoryWithWholeRows) {
   const std::string text = sample::text_of(folder / "history.csv");
   EXPECT_GT(text.size(), 900u);
   EXPECT_EQ(text.back(), '\n');
+}
+
+/// Of a run that is taken up again, too: its first row may be the one that finds no room.
+TEST(ResultsFailures, AFullDiskLeavesTheRowsFromBeforeARestart) {
+  const sample::Folder folder;
+  const std::vector<HistoryColumn> columns{{"time", "s"}, {"kinetic", "J"}};
+  EXPECT_TRUE(with_small_disk(60, [&] {
+    History history(folder / "history.csv", columns, "0,1\n1,2\n2,3\n");
+    return file_error([&] {
+             for (int k = 0; k < 100; ++k)
+               history.row(std::vector{1.0 / 3, 2.0 / 3});
+           }) != "no error";
+  }));
+  const std::string text = sample::text_of(folder / "history.csv");
+  EXPECT_EQ(text, "time [s],kinetic [J]\n0,1\n1,2\n2,3\n") << text;
 }
 
 TEST(ResultsFailures, ADeviceWithoutSpaceIsNamedAsSuch) {

@@ -104,16 +104,25 @@ TEST(ResultsTips, HaveColumnsUpToAReasonableNumber) {
   tips[1].speed = 7;
   const std::vector<HistoryColumn> columns = tip_columns(tips, cracks);
   std::vector<double> row;
-  add_tip_values(tips, row);
-  ASSERT_EQ(columns.size(), 15u);
-  ASSERT_EQ(row.size(), 15u);
-  EXPECT_EQ(columns[5].name, "high last length");
-  EXPECT_EQ(columns[7].unit, "Pa m^0.5");
-  EXPECT_EQ((std::vector<double>{row.begin() + 5, row.begin() + 10}), (std::vector<double>{0.5, 9, 3, -1, 7}));
+  add_tip_values(tips, cracks, row);
+  ASSERT_EQ(columns.size(), 21u);
+  ASSERT_EQ(row.size(), 21u);
+  EXPECT_EQ(columns[7].name, "high last x");
+  EXPECT_EQ(columns[10].unit, "J/m^2");
+  const Vec2 end = cracks.plane[cracks.end_point(1, true)];
+  EXPECT_EQ((std::vector<double>{row.begin() + 7, row.begin() + 14}),
+            (std::vector<double>{end.x, end.y, 0.5, 9, 3, -1, 7}));
+  const std::vector<HistoryColumn> far = reading_columns({"far", {}}, tips, cracks);
+  row.clear();
+  add_reading_values(tips, row);
+  ASSERT_EQ(far.size(), 9u);
+  ASSERT_EQ(row.size(), 9u);
+  EXPECT_EQ(far[3].name, "high last far J");
+  EXPECT_EQ((std::vector<double>{row.begin() + 3, row.begin() + 6}), (std::vector<double>{9, 3, -1}));
   tips.resize(400);
   row.clear();
-  add_tip_values(tips, row);
-  EXPECT_EQ(row.size(), 5 * most_tip_columns);
+  add_tip_values(tips, cracks, row);
+  EXPECT_EQ(row.size(), 7 * most_tip_columns);
   EXPECT_EQ(tip_columns(tips, cracks).size(), row.size());
 }
 

@@ -160,7 +160,7 @@ TEST(ResultsVtkhdf, ARunThatBeginsAnewRemovesOldFramesAndAResumedOneKeepsThem) {
   const auto frames = [&] { return list_frames(folder / "frames", "particles").size(); };
   const auto write = [&](FrameWriter& w, int n) {
     for (int k = 0; k < n; ++k)
-      w.write(0.1 * w.next_frame(), sample::particles(0), sample::cracks(0));
+      w.write(0.1 * static_cast<double>(w.times().size()), sample::particles(0), sample::cracks(0));
   };
   {
     FrameWriter first(folder.path(), scene);
@@ -168,7 +168,7 @@ TEST(ResultsVtkhdf, ARunThatBeginsAnewRemovesOldFramesAndAResumedOneKeepsThem) {
     first.finish();
   }
   {
-    FrameWriter resumed(folder.path(), scene, 3);
+    FrameWriter resumed(folder.path(), scene, {0, 0.1, 0.2});
     EXPECT_EQ(frames(), 3u);
     EXPECT_FALSE(std::filesystem::exists(folder / "particles.vtkhdf")) << "would show what is no longer there";
     write(resumed, 1);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <thread>
+#include <vector>
 
 #include "core/error.hpp"
 #include "io/expression.hpp"
@@ -35,6 +37,34 @@ TEST(Expression, IsTheFunctionWritten) {
   EXPECT_EQ(parse_shape("step(t - 0.5)", {}, 1)(0.25), 0);
   EXPECT_EQ(parse_shape("step(t - 0.5)", {}, 1)(0.5), 1);
   EXPECT_EQ(parse_shape("sign(t) + max(1, 2) + floor(1.5) + ceil(1.5)", {}, 1)(1), 6);
+}
+
+TEST(Expression, OfPlacesIsAFieldThatThreadsShare) {
+  const PlaceShape f = parse_field("sin(pi*X/L)*Y + t", {{"L", 2}});
+  const std::vector<double> X{0.5, 1, 1.5}, Y{1, 2, 3};
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4);
+  for (size_t k = 0; k < wrong.size(); ++k)
+    threads.emplace_back([&, k] {
+      for (int round = 0; round < 1000; ++round) {
+        double out[3];
+        const double t = static_cast<double>(k) + round;
+        f(t, 3, X.data(), Y.data(), out);
+        for (size_t i = 0; i < 3; ++i)
+          wrong[k] += std::abs(out[i] - (std::sin(std::numbers::pi * X[i] / 2) * Y[i] + t)) > 1e-12;
+      }
+    });
+  for (std::thread& t : threads)
+    t.join();
+  for (const int w : wrong)
+    EXPECT_EQ(w, 0);
+}
+
+TEST(Expression, NamesPlacesAsWordsOfTheirOwn) {
+  for (const char* text : {"X", "2*Y", "sin(X)", "-X+t"})
+    EXPECT_TRUE(names_place(text)) << text;
+  for (const char* text : {"t", "Xa", "aX", "X_1", "maxY", "x", ""})
+    EXPECT_FALSE(names_place(text)) << text;
 }
 
 TEST(Expression, CopiesAgree) {

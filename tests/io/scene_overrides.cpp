@@ -18,6 +18,20 @@ TEST(Overrides, ReplaceAndAdd) {
   EXPECT_EQ(s.output.frames, 3);
 }
 
+TEST(Overrides, TakeAwayWhatHasNoValue) {
+  const Scene s = read(good_scene, {"crack.edge.contact=", "symmetry=", "solver.plane=", "grip.top="});
+  EXPECT_FALSE(s.cracks[0].contact);
+  EXPECT_TRUE(s.symmetry.empty());
+  EXPECT_TRUE(s.grips.empty());
+  EXPECT_EQ(s.plane, Plane::strain);
+  EXPECT_TRUE(read(good_scene, {"crack="}).cracks.empty());
+  const Trouble t = trouble_of(good_scene, {"solver.plnae="});
+  EXPECT_NE(t.what.find("no key 'plnae' to take away"), std::string::npos) << t.what;
+  EXPECT_NE(t.suggestion.find("'plane'"), std::string::npos) << t.suggestion;
+  EXPECT_NE(trouble_of(good_scene, {"damping.grid="}).what.find("no key 'damping'"), std::string::npos);
+  EXPECT_NE(trouble_of(good_scene, {"grip.tip="}).what.find("no entry 'tip'"), std::string::npos);
+}
+
 TEST(Overrides, SourceTextHoldsThem) {
   const Scene s = read(good_scene, {"solver.cfl=0.3", "title=other"});
   const Scene again = read(s.source_text);

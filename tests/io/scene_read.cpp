@@ -127,6 +127,8 @@ fields = ["fringe"]
 fringe_constant = "0.0889 1/MPa"
 [limits]
 energy_growth = 0.1
+retries = 3
+retry_cfl = 0.8
 )toml");
   EXPECT_EQ(s.materials[1].law, LawKind::neo_hookean);
   const Body& b = s.bodies[1];
@@ -184,6 +186,9 @@ energy_growth = 0.1
   EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
   EXPECT_DOUBLE_EQ(s.output.fringe_constant, 0.0889e-6);
   EXPECT_DOUBLE_EQ(s.limits.energy_growth, 0.1);
+  EXPECT_EQ(s.limits.retries, 3);
+  EXPECT_EQ(s.limits.retry_cfl, 0.8);
+  EXPECT_EQ(s.output.checkpoint_steps, 1000) << "to go back to";
 }
 
 TEST(ReadScene, WhatIsNotSaidIsListedWithItsDefault) {
@@ -291,6 +296,54 @@ TEST(ReadScene, ShippedScenesAreRight) {
     ++count;
   }
   EXPECT_GT(count, 0);
+}
+
+/// A shape that names places is a field of its body's places, others are functions of time; constants of the scene
+/// serve all of them, those of a shape stand before them.
+TEST(SceneRead, FieldsAndConstants) {
+  const Scene s = read(changed("material = \"pmma\"", R"toml(material = "pmma"
+velocity_x = { value = "2 m/s", shape = "k*X/L + Y" }
+velocity_y = "1 m/s")toml") +
+                       R"toml([[load]]
+kind = "acceleration"
+rectangle = { lower = ["0 mm", "0 mm"], upper = ["9 mm", "9 mm"] }
+acceleration_x = { value = "1 m/s^2", shape = "X*t*k", k = 5 }
+acceleration_y = { value = "1 m/s^2", shape = "k*t/L" }
+[[probe]]
+name = "wrong"
+kind = "displacement_error"
+exact_y = { value = "1 mm", shape = "Y/L" }
+over = "2 mm"
+[constants]
+L = "50 mm"
+k = 3
+)toml");
+  const double X[] = {0.05, 0.1}, Y[] = {0, 0.5};
+  double v[2];
+  ASSERT_TRUE(s.bodies[0].velocity_field[0]);
+  s.bodies[0].velocity_field[0]->at(0, 2, X, Y, v);
+  EXPECT_DOUBLE_EQ(v[0], 6);
+  EXPECT_DOUBLE_EQ(v[1], 13);
+  s.bodies[0].velocity_field[1]->at(0, 2, X, Y, v);
+  EXPECT_DOUBLE_EQ(v[1], 1);
+  const Load& load = s.loads[0];
+  EXPECT_EQ(load.kind, Load::Kind::acceleration);
+  ASSERT_TRUE(load.value[0].places);
+  load.value[0].at(2, 2, X, Y, v);
+  EXPECT_DOUBLE_EQ(v[0], 0.5);
+  EXPECT_DOUBLE_EQ(v[1], 1);
+  EXPECT_FALSE(load.value[1].places);
+  EXPECT_DOUBLE_EQ(load.value[1](0.5), 30);
+  EXPECT_FALSE(s.probes[0].exact[0].places);
+  EXPECT_EQ(s.probes[0].exact[0](1), 0);
+  s.probes[0].exact[1].at(0, 2, X, Y, v);
+  EXPECT_DOUBLE_EQ(v[1], 0.01);
+  EXPECT_DOUBLE_EQ(s.probes[0].over, 2e-3);
+}
+
+TEST(SceneRead, ContactMayWait) {
+  EXPECT_EQ(read(good_scene).contact_rules.when, ContactWhen::always);
+  EXPECT_EQ(read(good_scene + "[contact]\nwhen = \"auto\"\n").contact_rules.when, ContactWhen::closing);
 }
 
 TEST(SceneRead, RulesOfGrowth) {

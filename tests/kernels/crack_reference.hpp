@@ -2,10 +2,13 @@
 //
 // Coordinates are whole numbers of a small unit. Unlike the kernels, which read signs of areas segment by segment, this
 // finds where the path meets the open segments and the points of a crack:
-//   - an open segment met inside of the path, or at its node, is one crossing;
+//   - an open segment met inside of the path is one crossing, and so is one met at its node, coming from above;
 //   - a point of the crack inside of the path: a tip is none; at a joint, each of its two segments that leads to the
 //     negative side of the path is one;
-//   - a point of the crack at the node is one crossing, if a segment that joins it is not in line with the particle.
+//   - a point of the crack at the node is one crossing, if a segment that joins it is not in line with the particle,
+//     and the first such has it above;
+//   - a particle inside of an open segment, or on a joint, crosses to what lies below that segment, or below the one
+//     that ends at the joint.
 #pragma once
 #include <map>
 #include <set>
@@ -34,7 +37,7 @@ struct Sum {
   int count = 0, net = 0;
   void cross(Point a, Point b, Point p) {
     ++count;
-    net += sign(area(a, b, p));
+    net += area(a, b, p) < 0 ? -1 : 1;
   }
   Side side() const { return count % 2 == 0 ? Side::none : net > 0 ? Side::above : Side::below; }
 };
@@ -54,7 +57,10 @@ inline Sum trace(const Line& line, Point p, Point n) {
   for (size_t k = 0; k + 1 < line.size(); ++k) {
     const Point a = line[k], b = line[k + 1];
     const Wide from = area(a, b, p), to = area(a, b, n), den = from - to;
-    if (den == 0 || place(from, den) == Place::outside)
+    const bool within = Wide(p.x - a.x) * (b.x - p.x) + Wide(p.y - a.y) * (b.y - p.y) > 0;
+    if (from == 0 && within && to < 0)
+      sum.cross(a, b, p);
+    if (den == 0 || place(from, den) == Place::outside || (to == 0 && from < 0))
       continue;
     const Wide left = area(p, n, a), right = area(p, n, b);
     if (sign(left) * sign(right) < 0)
@@ -74,10 +80,14 @@ inline Sum trace(const Line& line, Point p, Point n) {
       if (area(p, n, line[k + 1]) < 0)
         sum.cross(v, line[k + 1], p);
     } else if (at == Place::node) {
-      if (before && area(line[k - 1], v, p) != 0)
-        sum.cross(line[k - 1], v, p);
-      else if (after && area(v, line[k + 1], p) != 0)
+      if (before && area(line[k - 1], v, p) != 0) {
+        if (area(line[k - 1], v, p) > 0)
+          sum.cross(line[k - 1], v, p);
+      } else if (after && area(v, line[k + 1], p) > 0) {
         sum.cross(v, line[k + 1], p);
+      }
+    } else if (v == p && before && after && area(line[k - 1], v, n) < 0) {
+      sum.cross(line[k - 1], v, p);
     }
   }
   return sum;
@@ -152,7 +162,7 @@ Fields determine(const Lattice& l, const DomainSetting<double, 2>& domain, const
     for (const auto& [crack, n] : by_crack)
       most.push_back({-n[0] - n[1], crack});
     std::sort(most.begin(), most.end());
-    most.resize(std::min<size_t>(2, most.size()));
+    most.resize(std::min<size_t>(most_held, most.size()));
     std::set<int> held;
     for (const auto& m : most)
       held.insert(m.second);
@@ -171,7 +181,7 @@ Fields determine(const Lattice& l, const DomainSetting<double, 2>& domain, const
     const auto it = std::find(node.crack.begin(), node.crack.end(), pair.crack);
     const size_t m = static_cast<size_t>(it - node.crack.begin());
     if (it != node.crack.end() && node.side[m] == pair.sum.side()) {
-      out.word[static_cast<size_t>(pair.id)] |= (1u << m) << (2 * pair.neighbour);
+      out.word[static_cast<size_t>(pair.id)] |= (1u << m) << (CrackFields::bits * pair.neighbour);
       continue;
     }
     const int kind = it == node.crack.end();

@@ -1,6 +1,7 @@
 // Small scenes for the crack kernels: a grid of unit cells, particles where a test wants them, sorted by tile and cell.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -36,6 +37,14 @@ inline Cracks cracks_of(const std::vector<std::vector<Vec2>>& lines, double reso
     scene.cracks.push_back(line);
   }
   return make_cracks(scene, resolution);
+}
+
+/// Normal, now and of the first positions, of the k-th crack that a flagged node holds.
+inline std::array<Vec2, 2> normals_of(const CrackFields& fields, long flagged, int k) {
+  if (k < 2)
+    return {fields.normals[flagged].now[k], fields.normals[flagged].first[k]};
+  const ThirdNormal& third = fields.third_normals[fields.nodes[flagged].third];
+  return {third.now, third.first};
 }
 
 /// use(particle, memory) for what is known of the particles of marked tiles.

@@ -44,7 +44,7 @@ Setting make_setting(const std::vector<std::vector<Vec2>>& lines, SurfaceUpdate 
     const auto ay = Shape::axis(p.x[1][i] - s.lattice.origin.y, domain.axis[1]);
     for (int k = 0; k < Shape::width * Shape::width; ++k) {
       const int node = (ay.base + k / Shape::width) * s.lattice.nx + ax.base + k % Shape::width;
-      const int field = (s.fields.fields[i] >> (2 * k)) & 3u;
+      const int field = CrackFields::field_of(s.fields.fields[i], k);
       const long slot = field == 0 ? node : long{s.lattice.nodes()} + s.fields.extra[node] + field - 1;
       s.grid.mass[slot] += ax.s[k % Shape::width] * ay.s[k / Shape::width];
     }

@@ -4,7 +4,7 @@
 A baseline of its own, made first, makes the proof independent of the processor that it runs on. Then
   - a pass over the particles that nobody needs, hidden in one task, must shut the gate, by instructions and by time,
     and the gate must name the task;
-  - ten runs beside as many busy programs as there are cores must leave it open.
+  - runs beside as many busy programs as there are cores must leave it open: RIVEN_PROOF_RUNS of them, 2 if not said.
 """
 import os
 import subprocess
@@ -71,9 +71,9 @@ class Gate(unittest.TestCase):
     def test_a_second_pass_over_the_particles_takes_too_long(self):
         self.shuts("--no-instructions")
 
-    def test_ten_runs_on_a_loaded_machine_raise_no_alarm(self):
+    def test_runs_on_a_loaded_machine_raise_no_alarm(self):
         with Load():
-            for _ in range(10):
+            for _ in range(int(os.environ.get("RIVEN_PROOF_RUNS", "2"))):
                 run = gate("--no-instructions", timeout=300)
                 print(run.stdout)
                 self.assertEqual(run.returncode, 0, run.stdout + run.stderr)

@@ -1,6 +1,6 @@
 // What goes wrong silently elsewhere: contours that leave the solid, tips that are none, cracks inside of a contour,
 // cracks along grid lines and rows of particles.
-#include "io/run_scene.hpp"
+#include "io/summarize.hpp"
 #include "tests/physics/plates.hpp"
 
 namespace riven {

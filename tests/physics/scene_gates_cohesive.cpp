@@ -183,8 +183,8 @@ TEST(CohesiveDcb, TakesUpAtItsRootTheJOfTheLoads) {
     Load load;
     load.name = sign > 0 ? "up" : "down";
     load.region = sign > 0 ? Rectangle{{0, 0}, {1e-3, 8e-3}} : Rectangle{{0, -8e-3}, {1e-3, 0}};
-    load.value[1] = {sign * force,
-                     [](double t) { return t < ramp ? 0.5 * (1 - std::cos(3.14159265358979 * t / ramp)) : 1; }, ""};
+    load.value[1] = TimeFunction{
+        sign * force, [](double t) { return t < ramp ? 0.5 * (1 - std::cos(3.14159265358979 * t / ramp)) : 1; }, ""};
     scene.loads.push_back(load);
   }
   scene.grid_damping = TimeFunction{2e4, {}, ""};

@@ -1,5 +1,5 @@
-// J does not know where the lines of the grid are: the same plate with its tip at nine places of a cell, and turned on
-// the grid by 30 degrees.
+// J does not know where the lines of the grid are: the same plate with its tip at places of a cell, and turned on the
+// grid by 30 degrees. (At nine places of a cell: tests/stability/tips.cpp.)
 #include <numbers>
 
 #include "tests/physics/plates.hpp"
@@ -13,45 +13,6 @@ constexpr double mm = 1e-3;
 
 std::string length(double x) {
   return fmt::format("{:.9g} mm", 1e3 * x);
-}
-
-/// J of the edge crack alone, 8-cell contour, with its tip moved by a part of a cell from where it is shipped. The
-/// grips are as thick as a cell.
-double J_of_moved_tip(double cell, Vec2 cells) {
-  const Vec2 tip = Vec2{25 * mm, 0} + cell * cells;
-  const std::string y = length(tip.y), grip = length(std::max(cell, 1 * mm) + 50 * mm);
-  Plate plate("sent", {fmt::format("grid.cell={}", length(cell)), "grid.lower=[\"-8 mm\", \"-56 mm\"]",
-                       "grid.upper=[\"56 mm\", \"56 mm\"]",
-                       fmt::format("crack.H.points=[[\"-1 mm\", \"{}\"], [\"{}\", \"{}\"]]", y, length(tip.x), y),
-                       fmt::format("grip.top.rectangle.upper.1={}", grip),
-                       fmt::format("grip.bottom.rectangle.lower.1=-{}", grip)});
-  plate.hold();
-  return plate.tip(8).J;
-}
-
-/// Spread of J over the nine places at thirds of a cell, over its mean. J itself changes by 0.2 % per cell of crack
-/// length here.
-void expect_same_at_nine_places(double cell) {
-  double low = std::numeric_limits<double>::infinity(), high = 0, sum = 0;
-  for (const double y : {-1. / 3, 0., 1. / 3})
-    for (const double x : {-1. / 3, 0., 1. / 3}) {
-      const double J = J_of_moved_tip(cell, {x, y});
-      fmt::print("tip moved by {:+.3f} {:+.3f} cells: J {:.1f} J/m^2\n", x, y, J);
-      low = std::min(low, J);
-      high = std::max(high, J);
-      sum += J / 9;
-    }
-  report(fmt::format("J at nine places of a cell of {} mm, largest less smallest over the mean", 1e3 * cell),
-         (high - low) / sum, "0.04");
-  EXPECT_LT((high - low) / sum, 0.04);
-}
-
-TEST(TipOnTheGrid, MayBeAnywhereInACell) {
-  expect_same_at_nine_places(2 * mm);
-}
-
-TEST(TipOnTheGrid, DISABLED_MayBeAnywhereInAHalfMillimetreCell) {
-  expect_same_at_nine_places(0.5 * mm);
 }
 
 /// The plate with an edge crack, loaded by the same forces on the particles of the last 2 mm of either end, turned
@@ -76,8 +37,8 @@ Scene turned_plate(double cell, double angle) {
     const auto rise = [](double t) { return t < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * t / ramp)) : 1; };
     const double traction = 1e6;  // Pa
     const Vec2 force = side * traction * 50 * mm * s.thickness * ey;
-    load.value[0] = {force.x, rise, ""};
-    load.value[1] = {force.y, rise, ""};
+    load.value[0] = TimeFunction{force.x, rise, ""};
+    load.value[1] = TimeFunction{force.y, rise, ""};
     s.loads.push_back(load);
   }
   return s;
@@ -150,7 +111,7 @@ double compliance_of_tips(double traction, double below) {
     load.edge = side > 0 ? Load::Edge::top : Load::Edge::bottom;
     load.region = side > 0 ? Rectangle{{0, 0}, {50 * mm, 50 * mm}} : Rectangle{{0, -50 * mm}, {50 * mm, 0}};
     const auto rise = [](double t) { return t < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * t / ramp)) : 1; };
-    load.value[1] = {side * traction, rise, ""};
+    load.value[1] = TimeFunction{side * traction, rise, ""};
     s.loads.push_back(load);
   }
   Plate plate(s);

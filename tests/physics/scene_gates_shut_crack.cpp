@@ -31,10 +31,24 @@ Scene pressed_plate(double friction) {
     const auto rise = [](double time) {
       return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) : 1;
     };
-    load.value[1] = {-side * p * 60 * mm * s.thickness, rise, ""};
+    load.value[1] = TimeFunction{-side * p * 60 * mm * s.thickness, rise, ""};
     s.loads.push_back(load);
   }
   return s;
+}
+
+/// J, K_I and K_II over some steps: nodes along faces without friction take turns in bearing the pressure, step by
+/// step, and K_I of one step is off by up to 7 % of K_II to either side.
+Tip mean_tip(Plate& plate, int contour) {
+  constexpr int steps = 40;
+  Tip mean;
+  for (int k = 0; k < steps; ++k) {
+    const Tip now = plate.tip(contour);
+    mean.J += now.J / steps;
+    mean.M_I += now.M_I / steps;
+    mean.M_II += now.M_II / steps;
+  }
+  return mean;
 }
 
 TEST(ShutCrack, SlidesAgainstItsFriction) {
@@ -44,7 +58,7 @@ TEST(ShutCrack, SlidesAgainstItsFriction) {
     Plate plate(pressed_plate(mu));
     print("shut crack", plate.hold());
     for (const int contour : {4, 8, 12}) {
-      const Tip tip = plate.tip(contour);
+      const Tip tip = mean_tip(plate, contour);
       const double share = (1 - mu) * K_II;
       const std::string what = fmt::format("shut crack, friction {}, {} cells", mu, contour);
       report(what + ": K_II over that of a wide plate", std::abs(tip.M_II) / share, "none");
@@ -53,7 +67,7 @@ TEST(ShutCrack, SlidesAgainstItsFriction) {
       EXPECT_NEAR(tip.M_I, 0, 0.05 * share);
       EXPECT_NEAR(std::sqrt(tip.J * E), std::abs(tip.M_II), 0.04 * std::abs(tip.M_II));
     }
-    const double J = plate.tip(8).J;
+    const double J = mean_tip(plate, 8).J;
     if (mu == 0) {
       J_free = J;
     } else {

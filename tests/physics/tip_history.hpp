@@ -19,29 +19,25 @@ struct TipRow {
 using TipHistory = std::vector<TipRow>;
 
 /// Runs a scene and keeps its tips at every row of the history: one history for each set of rules, all found in the
-/// same steps. Leaves the scene as it was.
-inline std::vector<TipHistory> run_with(Scene& scene, const std::vector<FractureRules>& rules) {
+/// same steps.
+inline std::vector<TipHistory> run_with(Scene scene, const std::vector<FractureRules>& rules) {
+  for (const FractureRules& r : rules)
+    scene.readings.push_back({"", r});
   const exec::Space space;
   Simulation m(scene, space);
   std::vector<TipHistory> histories(rules.size());
-  const FractureRules own = scene.fracture;
-  insert_task(m, "J and K", true, [&](Simulation& s) {
-    const Clock& c = s.state.clock;
-    if (!report_due(scene, c.time, c.time + c.dt))
-      return;
-    for (size_t k = 0; k < rules.size(); ++k) {
-      scene.fracture = rules[k];
-      find_j_and_k(s);
-      histories[k].push_back({c.time + c.dt, s.state.tips});
-    }
-    scene.fracture = own;
-  });
-  while (!m.finished())
+  const Clock& c = m.state.clock;
+  while (!m.finished()) {
+    const double before = c.time;
     m.step();
+    if (report_due(scene, before, c.time))
+      for (size_t k = 0; k < rules.size(); ++k)
+        histories[k].push_back({c.time, m.state.readings[k]});
+  }
   return histories;
 }
 
-inline TipHistory run_tips(Scene& scene) {
+inline TipHistory run_tips(const Scene& scene) {
   return run_with(scene, {scene.fracture})[0];
 }
 

@@ -19,7 +19,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "kernels/dispatch.hpp"
+#include "io/probes.hpp"
 #include "tests/physics/scenes.hpp"
 
 namespace riven {
@@ -31,92 +31,79 @@ constexpr double pi = std::numbers::pi;
 struct Motion {
   double amplitude, omega, lambda, mu;  ///< Lame's constants over density
 
-  Vec2 swing(double t) const { return amplitude * Vec2{std::sin(omega * t), std::sin(omega * t + pi)}; }
-  Vec2 rate(double t) const { return amplitude * omega * Vec2{std::cos(omega * t), std::cos(omega * t + pi)}; }
-  /// Body force per mass at the particle whose sines and cosines of pi X, pi Y are s and c.
-  Vec2 force(Vec2 s, Vec2 c, Vec2 swing) const {
-    const double Fx = 1 + pi * swing.x * c.x, Fy = 1 + pi * swing.y * c.y;
-    const double ux = swing.x * s.x, uy = swing.y * s.y;
-    const auto stiffness = [&](double F, double G) {
-      return mu * (1 + 1 / (F * F)) + 0.5 * lambda * (G * G + 1 / (F * F));
+  /// u over sin(pi X), or v over sin(pi Y).
+  double swing(int axis, double t) const { return amplitude * std::sin(omega * t + (axis == 0 ? 0 : pi)); }
+  double rate(int axis, double t) const { return amplitude * omega * std::cos(omega * t + (axis == 0 ? 0 : pi)); }
+  /// Body force per mass along the axis at time t, as a function of X and Y.
+  auto force(int axis, double t) const {
+    const double a = swing(axis, t), b = swing(1 - axis, t);
+    return [=, *this](double X, double Y) {
+      const double here = pi * (axis == 0 ? X : Y), across = pi * (axis == 0 ? Y : X);
+      const double F = 1 + pi * a * std::cos(here), G = 1 + pi * b * std::cos(across);
+      const double stiffness = mu * (1 + 1 / (F * F)) + 0.5 * lambda * (G * G + 1 / (F * F));
+      return (pi * pi * stiffness - omega * omega) * a * std::sin(here);
     };
-    return {(pi * pi * stiffness(Fx, Fy) - omega * omega) * ux, (pi * pi * stiffness(Fy, Fx) - omega * omega) * uy};
   }
 };
 
-/// Adds the body force to the grid's forces.
-template <class Shape>
-void add_forces(Simulation& m, const Motion& motion, const std::vector<Vec2>& s, const std::vector<Vec2>& c) {
-  auto& p = m.state.particles;
-  const Lattice& l = m.state.grid.lattice;
-  const Vec2 swing = motion.swing(m.state.clock.time + 0.5 * m.state.clock.dt);
-  double* q = m.state.grid.q.data();
-  for (int i = 0; i < p.count(); ++i) {
-    const size_t id = static_cast<size_t>(p.id[i]);
-    const Vec2 f = p.mass[i] * motion.force(s[id], c[id], swing);
-    const auto a = Shape::axis((p.x[0][i] - l.origin.x) / l.h, m.state.domains[0].axis[0]);
-    const auto b = Shape::axis((p.x[1][i] - l.origin.y) / l.h, m.state.domains[0].axis[1]);
-    for (int j = 0; j < Shape::width; ++j)
-      for (int k = 0; k < Shape::width; ++k) {
-        double* node = q + 4L * ((b.base + j) * l.nx + a.base + k);
-        node[2] += f.x * a.s[k] * b.s[j];
-        node[3] += f.y * a.s[k] * b.s[j];
-      }
-  }
+/// The field that is at(t)(X, Y).
+template <class At>
+Field field(At at) {
+  return {1, [at](double t, long n, const double* X, const double* Y, double* out) {
+            const auto now = at(t);
+            for (long i = 0; i < n; ++i)
+              out[i] = now(X[i], Y[i]);
+          }};
 }
 
-/// RMS displacement error over the amplitude.
-double error(ShapeFunction shape, int cells, double amplitude, int particles_per_cell = 2) {
+Scene vibrating(ShapeFunction shape, int cells, double amplitude, int particles_per_cell) {
   Scene scene = empty_scene(1. / cells, {{0, 0}, {1, 1}}, LawKind::neo_hookean);
   scene.shape = shape;
   scene.cfl = 0.4;
-  scene.limits.energy_growth = 1e9;  // the manufactured force's work is not booked
   scene.bodies = {body("square", Rectangle{{0, 0}, {1, 1}})};
   scene.bodies[0].particles_per_cell = particles_per_cell;
-  for (const int axis : {0, 1}) {
-    scene.symmetry.push_back({axis, 0, +1});
-    scene.symmetry.push_back({axis, 1, -1});
-  }
-  Probe keep;  // makes the particles remember where they started
-  keep.kind = Probe::Kind::displacement;
-  scene.probes = {keep};
   const Elasticity e = elasticity(scene.materials[0]);
   const double c0 = std::sqrt(scene.materials[0].E / scene.materials[0].density);
   const Motion motion{amplitude, pi * c0, e.lambda, e.mu};
   scene.end_time = 2 / c0;
+  Load drive;
+  drive.kind = Load::Kind::acceleration;
+  drive.region = scene.bodies[0].region;
+  Probe wrong;
+  wrong.kind = Probe::Kind::displacement_error;
+  wrong.over = amplitude;
+  for (const int axis : {0, 1}) {
+    scene.symmetry.push_back({axis, 0, +1});
+    scene.symmetry.push_back({axis, 1, -1});
+    const auto sine = [axis](double factor) {
+      return [=](double X, double Y) { return factor * std::sin(pi * (axis == 0 ? X : Y)); };
+    };
+    scene.bodies[0].velocity_field[axis] = field([=](double) { return sine(motion.rate(axis, 0)); });
+    drive.value[axis] = field([=](double t) { return motion.force(axis, t); });
+    wrong.exact[axis] = field([=](double t) { return sine(motion.swing(axis, t)); });
+  }
+  scene.loads = {drive};
+  scene.probes = {wrong};
+  return scene;
+}
 
+/// RMS displacement error over the amplitude, looked at in every fourth step.
+double error(ShapeFunction shape, int cells, double amplitude, int particles_per_cell = 2) {
+  const Scene scene = vibrating(shape, cells, amplitude, particles_per_cell);
   const exec::Space space;
   Simulation m(scene, space);
-  auto& p = m.state.particles;
-  std::vector<Vec2> s(static_cast<size_t>(p.count())), c(s.size());
-  for (int i = 0; i < p.count(); ++i) {
-    const size_t id = static_cast<size_t>(p.id[i]);
-    const double X = pi * p.x0[0][i], Y = pi * p.x0[1][i];
-    s[id] = {std::sin(X), std::sin(Y)};
-    c[id] = {std::cos(X), std::cos(Y)};
-    const Vec2 rate = motion.rate(0);
-    p.v[0][i] = rate.x * s[id].x;
-    p.v[1][i] = rate.y * s[id].y;
-  }
-  const auto advance =
-      std::find_if(m.tasks.begin(), m.tasks.end(), [](const Task& t) { return t.label == "advance grid"; });
-  m.tasks.insert(advance, {"manufactured force", "test", [&](Simulation& n) {
-                             with_shape(shape,
-                                        [&](auto type) { add_forces<typename decltype(type)::type>(n, motion, s, c); });
-                           }});
+  const Probes probes(m);
   double sum = 0;
   long count = 0;
   while (!m.finished()) {
     m.step();
-    const Vec2 swing = motion.swing(m.state.clock.time);
-    for (int i = 0; i < p.count(); ++i) {
-      const size_t id = static_cast<size_t>(p.id[i]);
-      const double ex = p.x[0][i] - p.x0[0][i] - swing.x * s[id].x, ey = p.x[1][i] - p.x0[1][i] - swing.y * s[id].y;
-      sum += ex * ex + ey * ey;
-    }
-    count += p.count();
+    if (m.state.clock.step % 4 != 0)
+      continue;
+    const double now = probes.read(m)[0];
+    sum += now * now;
+    ++count;
   }
-  return std::sqrt(sum / static_cast<double>(count)) / amplitude;
+  return std::sqrt(sum / static_cast<double>(count));
 }
 
 /// Errors on meshes of `from`, 2 from, ... `to` cells.
@@ -132,12 +119,15 @@ std::vector<double> errors(ShapeFunction shape, int from, int to, double amplitu
   return list;
 }
 
-/// Least order between neighbouring meshes.
-double least_order(const std::vector<double>& errors) {
-  double least = 1e9;
-  for (size_t k = 1; k < errors.size(); ++k)
-    least = std::min(least, std::log2(errors[k - 1] / errors[k]));
-  return least;
+/// Least and largest order between neighbouring meshes.
+std::pair<double, double> orders(const std::vector<double>& errors) {
+  double least = 1e9, largest = -1e9;
+  for (size_t k = 1; k < errors.size(); ++k) {
+    const double order = std::log2(errors[k - 1] / errors[k]);
+    least = std::min(least, order);
+    largest = std::max(largest, order);
+  }
+  return {least, largest};
 }
 
 /// Order over all meshes: slope of the line of least squares through log(error) against log(h).
@@ -153,27 +143,35 @@ double mean_order(const std::vector<double>& errors) {
 }
 
 constexpr double small = 1e-4;  ///< no particle leaves its cell
-constexpr double large = 0.05;  ///< as far as six cells of 1/128
+constexpr double large = 0.05;  ///< as far as three cells of 1/64
 
 TEST(Vibration, LinearIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(mean_order(errors(ShapeFunction::linear, 16, 128, small)), 1.8);
+  EXPECT_NEAR(mean_order(errors(ShapeFunction::linear, 16, 128, small)), 2, 0.2);
 }
-/// Far enough below the smallest mesh's error, the particles' displacement leaves the order alone.
+/// On every mesh; far enough below the smallest mesh's error, the particles' displacement leaves the order alone.
+void expect_second_order(const std::vector<double>& errors) {
+  const auto [least, largest] = orders(errors);
+  EXPECT_GE(least, 1.8);
+  EXPECT_LE(largest, 2.2);
+}
 TEST(Vibration, LinearIsOfSecondOrderOnEveryMeshWhereParticlesMoveLittle) {
-  EXPECT_GE(least_order(errors(ShapeFunction::linear, 16, 128, 0.1 * small)), 1.8);
+  expect_second_order(errors(ShapeFunction::linear, 16, 128, 0.1 * small));
 }
 TEST(Vibration, UGimpIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(least_order(errors(ShapeFunction::ugimp, 16, 128, small)), 1.8);
+  expect_second_order(errors(ShapeFunction::ugimp, 16, 128, small));
 }
 TEST(Vibration, BSplineIsOfSecondOrderWithoutCrossings) {
-  EXPECT_GE(least_order(errors(ShapeFunction::bspline, 16, 128, small)), 1.8);
+  expect_second_order(errors(ShapeFunction::bspline, 16, 128, small));
 }
 
+/// Particles that lie unevenly in the cells cost uGIMP some of its order: 1.6 on these meshes, 1.5 at least on each.
 TEST(Vibration, UGimpConvergesAcrossCells) {
-  EXPECT_GE(least_order(errors(ShapeFunction::ugimp, 16, 64, large, 8)), 1.5);
+  const std::vector<double> all = errors(ShapeFunction::ugimp, 16, 64, large, 8);
+  EXPECT_GE(orders(all).first, 1.5);
+  EXPECT_NEAR(mean_order(all), 1.6, 0.2);
 }
 TEST(Vibration, BSplineIsOfSecondOrderAcrossCells) {
-  EXPECT_GE(least_order(errors(ShapeFunction::bspline, 16, 128, large, 10)), 1.8);
+  expect_second_order(errors(ShapeFunction::bspline, 16, 64, large, 10));
 }
 
 /// With four particles per cell, and across up to three cells, the smooth functions stay within a per cent.

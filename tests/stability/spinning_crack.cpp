@@ -1,14 +1,16 @@
 // A crack in a disk that spins: the grid's directions must not show, and surfaces stay with the particles beside them.
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "io/crack_opening.hpp"
-#include "tests/physics/scene_gates.hpp"
+#include "tests/stability/gates.hpp"
 
 namespace riven {
 namespace {
 
 using namespace gates;
+using namespace hard_cases;
 
 constexpr double mm = 1e-3;
 constexpr Vec2 center{20 * mm, 20 * mm};
@@ -25,10 +27,8 @@ struct Means {
   double opening = 0, kinetic = 0, strain = 0;
 };
 
-Means spin(double degrees) {
+Means spin(const Scene& scene) {
   const exec::Space space;
-  Scene scene = shipped("spinning_crack", {crack_setting(4, 16, degrees)});
-  scene.deterministic = true;
   Simulation m(scene, space);
   Means mean;
   int samples = 0;
@@ -50,24 +50,31 @@ Means spin(double degrees) {
 }
 
 TEST(SpinningCrack, OpensAlikeInRotatedFrames) {
-  const double degrees[] = {0, 45, 60};
+  std::vector<Scene> scenes;
+  for (const double degrees : {0, 45, 60})
+    scenes.push_back(shipped("spinning_crack", {crack_setting(4, 16, degrees)}));
   Means runs[3], mean;
-  for (int i = 0; i < 3; ++i) {
-    runs[i] = spin(degrees[i]);
-    mean.opening += runs[i].opening / 3;
-    mean.kinetic += runs[i].kinetic / 3;
-    mean.strain += runs[i].strain / 3;
+  {
+    std::vector<std::jthread> others;
+    for (size_t i : {1, 2})
+      others.emplace_back([&, i] { runs[i] = spin(scenes[i]); });
+    runs[0] = spin(scenes[0]);
   }
-  for (int i = 0; i < 3; ++i) {
-    const auto differs = [&](const char* what, double value, double from) {
-      report(fmt::format("spinning crack at {} degrees, {} against the mean of three directions", degrees[i], what),
-             value / from - 1, "|.| < 0.02");
-      EXPECT_LT(std::abs(value / from - 1), 0.02) << degrees[i];
-    };
-    differs("opening", runs[i].opening, mean.opening);
-    differs("kinetic energy", runs[i].kinetic, mean.kinetic);
-    differs("strain energy", runs[i].strain, mean.strain);
+  for (const Means& r : runs) {
+    mean.opening += r.opening / 3;
+    mean.kinetic += r.kinetic / 3;
+    mean.strain += r.strain / 3;
   }
+  double opening = 0, kinetic = 0, strain = 0;
+  for (const Means& r : runs) {
+    opening = std::max(opening, std::abs(r.opening / mean.opening - 1));
+    kinetic = std::max(kinetic, std::abs(r.kinetic / mean.kinetic - 1));
+    strain = std::max(strain, std::abs(r.strain / mean.strain - 1));
+  }
+  const std::string row = "cracked disk spins at 0.05 c/D, crack at 0, 45 and 60 degrees";
+  below(row + ": opening against the mean", opening, 0.02);
+  below(row + ": kinetic energy against the mean", kinetic, 0.02);
+  below(row + ": strain energy against the mean", strain, 0.02);
 }
 
 /// Root mean square distance of the particles from the center.
@@ -103,12 +110,9 @@ TEST(SpinningCrack, TurnsWithItsBody) {
         opening = std::max(opening, norm(openings[static_cast<size_t>(k)].vector));
     }
   }
-  report("spinning crack, bonded, opening and sliding in a turn, cells", opening / h, "0.02");
-  report("spinning crack, bonded, points off its line in a turn, cells", astray / h, "0.02");
-  report("spinning crack, bonded, mouth off its line in a turn, cells", mouth / h, "0.2");
-  EXPECT_LT(opening, 0.02 * h);
-  EXPECT_LT(astray, 0.02 * h);
-  EXPECT_LT(mouth, 0.2 * h);
+  below("bonded crack in a spinning disk, one turn: opening and sliding, cells", opening / h, 0.02);
+  below("bonded crack in a spinning disk, one turn: points off its line, cells", astray / h, 0.02);
+  below("bonded crack in a spinning disk, one turn: mouth off its line, cells", mouth / h, 0.2);
 }
 
 }  // namespace

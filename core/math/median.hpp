@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace riven::perf {
+namespace riven {
 
 /// The middle of the values, or the mean of the two in the middle. There must be one at least.
 inline double median(std::vector<double> values) {
@@ -13,4 +13,4 @@ inline double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-}  // namespace riven::perf
+}  // namespace riven

@@ -1,0 +1,72 @@
+#include "core/plan/predict_memory.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/state/grid.hpp"
+
+namespace riven {
+
+namespace {
+
+double area(const Region& region) {
+  if (const auto* r = std::get_if<Rectangle>(&region))
+    return (r->upper.x - r->lower.x) * (r->upper.y - r->lower.y);
+  if (const auto* d = std::get_if<Disk>(&region))
+    return std::numbers::pi * d->radius * d->radius;
+  const auto& p = std::get<Polygon>(region).points;
+  double twice = 0;
+  for (size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
+    twice += cross(p[j], p[i]);
+  return 0.5 * std::abs(twice);
+}
+
+double particles_of(const Body& body, double cell) {
+  double solid = area(body.region);
+  for (const Region& hole : body.holes)
+    solid -= area(hole);
+  return std::max(0., solid) * body.particles_per_cell * body.particles_per_cell / (cell * cell);
+}
+
+double bytes_of_particle(const Plan& p, double real) {
+  constexpr double position = 2 * sizeof(double), body_and_id = 1 + sizeof(int);
+  double bytes = position + body_and_id + real * (2 + 3 + 1);  // velocity, stress, mass
+  bytes += sizeof(double) * (p.keeps_F() ? 4 : 1);
+  if (p.first_positions())
+    bytes += position;
+  if (p.extrapolate_again())
+    bytes += 2 * real;
+  if (p.cracks)
+    bytes += sizeof(std::uint32_t);
+  return bytes;
+}
+
+double bytes_of_node(const Plan& p, double real) {
+  double vectors = 1;
+  if (p.extrapolate_again())
+    vectors += 1;
+  if (p.higher_order() && p.order > 1)
+    vectors += 3;
+  double bytes = real * (1 + 4 * vectors);
+  if (p.constraints)
+    bytes += sizeof(int);
+  if (p.contact || p.fracture)
+    bytes += sizeof(int);
+  if (p.cracks)
+    bytes += 4 * sizeof(int);
+  return bytes;
+}
+
+}  // namespace
+
+MemoryNeed predict_memory(const Scene& scene, const Plan& plan) {
+  const double real = scene.precision == Precision::as_float ? sizeof(float) : sizeof(double);
+  MemoryNeed need;
+  for (const Body& body : scene.bodies)
+    need.particles += particles_of(body, scene.cell);
+  need.nodes = make_lattice(scene.grid.lower, scene.grid.upper, scene.cell).nodes();
+  need.bytes = need.particles * bytes_of_particle(plan, real) + need.nodes * bytes_of_node(plan, real);
+  return need;
+}
+
+}  // namespace riven

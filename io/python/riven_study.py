@@ -1,0 +1,188 @@
+"""Draw what `riven study` found: error against time for every method, with the choices that nothing beats marked.
+
+    python3 riven_study.py results/sent_j
+
+One picture for each result of the study, RESULT.png, from study.json in the folder. Curves join the members of a method
+along the refined axis; where there are many, they share colours by the first of the other axes. What failed is listed
+below the picture, and shown in a second one, RESULT_map.png, by method and place on the refined axis.
+"""
+
+import argparse
+import json
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.colors
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+import numpy as np
+
+MARKERS = "osD^v<>pPX*hd"
+LINES = ["-", "--", ":", "-."]
+
+
+def nan(x):
+    return float("nan") if x is None else x
+
+
+def wall(member):
+    return float(np.median(member["wall_seconds"])) if member["wall_seconds"] else float("nan")
+
+
+def styles(study):
+    """A colour, a marker and a line for each method, by the choices of the first three axes that are not refined."""
+    axes = [n for n, axis in enumerate(study["axes"]) if not axis["refined"]]
+    palette = plt.get_cmap("tab10").colors
+    of = {}
+    for number, method in enumerate(study["methods"]):
+        choice = study["members"][method["members"][0]]["choice"]
+        place = [choice[a] for a in axes[:3]] if axes else [number]
+        place += [0] * (3 - len(place))
+        of[number] = {
+            "color": palette[place[0] % len(palette)],
+            "marker": MARKERS[place[1] % len(MARKERS)],
+            "linestyle": LINES[place[2] % len(LINES)],
+        }
+    return of
+
+
+def draw_result(study, result, out, dpi):
+    name = result["name"]
+    members = study["members"]
+    errors = [nan(m["results"][name]["error"]) for m in members]
+    figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
+    refined = any(axis["refined"] for axis in study["axes"])
+    for number, (method, style) in enumerate(zip(study["methods"], styles(study).values())):
+        good = [k for k in method["members"] if np.isfinite(errors[k]) and members[k]["status"] == "done"]
+        label = method["label"] or "all"
+        order = nan(result["fits"][number]["order"])
+        if np.isfinite(order):
+            label += f"  (order {order:.1f})"
+        axes.plot(
+            [wall(members[k]) for k in good],
+            [100 * errors[k] for k in good],
+            markersize=5,
+            linewidth=1,
+            alpha=0.85,
+            label=label,
+            **{**style, "linestyle": style["linestyle"] if refined else "none"},
+        )
+    front = result["front"]
+    axes.plot(
+        [wall(members[k]) for k in front],
+        [100 * members[k]["results"][name]["settled_error"] for k in front],
+        color="black",
+        linewidth=3,
+        alpha=0.25,
+        marker="o",
+        markersize=12,
+        markerfacecolor="none",
+        drawstyle="steps-post",
+        label="what is to be had for the time" + (",\nwhen finer, too" if refined else ""),
+    )
+    if "limit" in result and result["limit"]["value"]:
+        axes.axhspan(
+            1e-6, 100 * result["limit"]["spread"] / abs(result["limit"]["value"]), color="grey", alpha=0.15, linewidth=0
+        )
+    shown = [100 * e for k, e in enumerate(errors) if np.isfinite(e) and e > 0 and members[k]["choice"]]
+    if shown:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_ylim(max(min(shown) / 2, 1e-4), max(shown) * 2)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    else:
+        axes.text(0.5, 0.5, "no error can be told", ha="center", transform=axes.transAxes)
+    axes.set_xlabel("wall time of a run [s]" if study["timed"] else "wall time of a run beside others [s]")
+    axes.set_ylabel(f"error of {name} [%]")
+    axes.grid(which="both", alpha=0.2)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    axes.set_title(study["title"], fontsize=10)
+    failed = [f"{m['label']}: {m['status']}" for m in members if m["status"] != "done"]
+    if failed:
+        more = f" and {len(failed) - 6} more" if len(failed) > 6 else ""
+        figure.supxlabel("; ".join(failed[:6]) + more, fontsize=6, color="tab:red")
+    figure.savefig(out, dpi=dpi)
+    plt.close(figure)
+
+
+def draw_map(study, result, out, dpi):
+    """Methods against the refined axis: the error where runs ended, a cross where they did not."""
+    name = result["name"]
+    members = study["members"]
+    refined = next(n for n, axis in enumerate(study["axes"]) if axis["refined"])
+    labels = [choice["label"] for choice in study["axes"][refined]["choices"]]
+    methods = study["methods"]
+    errors = np.full((len(methods), len(labels)), np.nan)
+    for row, method in enumerate(methods):
+        for k in method["members"]:
+            if members[k]["status"] == "done":
+                errors[row, members[k]["choice"][refined]] = 100 * nan(members[k]["results"][name]["error"])
+    order = np.argsort([choice["size"] for choice in study["axes"][refined]["choices"]])
+    errors, labels = errors[:, order], [labels[k] for k in order]
+    figure, axes = plt.subplots(figsize=(4 + 0.5 * len(labels), 1.5 + 0.17 * len(methods)), layout="constrained")
+    image = axes.imshow(
+        errors, aspect="auto", cmap="viridis", norm=matplotlib.colors.LogNorm(vmin=0.01, vmax=10, clip=True)
+    )
+    for row, column in np.argwhere(~np.isfinite(errors)):
+        axes.text(column, row, "\u00d7", ha="center", va="center", color="tab:red", fontsize=9)
+    axes.set_xticks(range(len(labels)), labels)
+    axes.set_yticks(range(len(methods)), [method["label"] for method in methods], fontsize=6)
+    axes.set_xlabel(study["axes"][refined]["name"])
+    figure.colorbar(image, label=f"{name} [%]; red: stopped", shrink=0.6)
+    axes.set_title(study["title"], fontsize=10)
+    figure.savefig(out, dpi=dpi)
+    plt.close(figure)
+
+
+def draw_left_out(study, out, dpi):
+    """What leaving each effect out saves, and what it does to the answer."""
+    effects = study["left_out"]
+    names = list(effects[0]["changes"])
+    figure, axes = plt.subplots(
+        1, 1 + len(names), figsize=(4 + 3 * len(names), 1.2 + 0.4 * len(effects)), sharey=True, layout="constrained"
+    )
+    places = np.arange(len(effects))
+    columns = [("of the run's time saved [%]", [100 * nan(e["cost"]) for e in effects])]
+    columns += [(f"change of {name} [%]", [100 * nan(e["changes"][name]) for e in effects]) for name in names]
+    for axis, (label, values) in zip(axes, columns):
+        axis.barh(places, values, height=0.6)
+        axis.set_xlabel(label)
+        axis.axvline(0, color="black", linewidth=0.8)
+        axis.spines[["top", "right"]].set_visible(False)
+    axes[0].set_yticks(places, ["without " + e["name"] for e in effects])
+    axes[0].invert_yaxis()
+    figure.suptitle(study["title"], fontsize=10)
+    figure.savefig(out, dpi=dpi)
+    plt.close(figure)
+
+
+def file_name(text):
+    return re.sub(r"[^\w.-]+", "_", text) + ".png"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="results of `riven study`")
+    parser.add_argument("--dpi", type=int, default=120)
+    arguments = parser.parse_args()
+    path = arguments.folder / "study.json"
+    if not path.is_file():
+        sys.exit(f"{path}: no such file; run `riven study` first")
+    study = json.loads(path.read_text(encoding="utf-8"))
+    if study["methods"]:
+        for result in study["results"]:
+            draw_result(study, result, arguments.folder / file_name(result["name"]), arguments.dpi)
+            if any(axis["refined"] for axis in study["axes"]) and any(m["status"] != "done" for m in study["members"]):
+                draw_map(study, result, arguments.folder / file_name(result["name"] + " map"), arguments.dpi)
+    if study["left_out"]:
+        draw_left_out(study, arguments.folder / "left_out.png", arguments.dpi)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,75 @@
+// A study: one scene over a grid of choices, what is read from each run, and what that is held against.
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riven::study {
+
+/// One way to set some keys of the scene.
+struct Choice {
+  std::string label;
+  std::vector<std::string> set;                            ///< "key=value", as `riven run --set` takes them
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< Axis::refined: what tends to zero, in SI
+};
+
+struct Axis {
+  std::string name;
+  std::vector<Choice> choices;
+  bool refined = false;  ///< errors and costs are fitted along this one
+};
+
+/// How a column of the history becomes one number, or is held against a curve.
+enum class Take { end, mean, rms, largest, smallest, curve };
+
+/// What a result should be.
+struct Reference {
+  enum class Kind { none, value, curve, extrapolated };
+  Kind kind = Kind::none;
+  std::string value;  ///< a quantity as written; its unit is checked once that of the column is known
+  std::string file;   ///< of a curve: two columns, the time first, with units in the header
+};
+
+/// A named result of each member.
+struct Result {
+  std::string name;
+  std::string column;  ///< of history.csv, without its unit
+  Take take = Take::end;
+  double from = 0, to = std::numeric_limits<double>::infinity();  ///< s
+  Reference reference;
+  std::string
+      scale;  ///< a quantity that errors are divided by; empty: the reference, or the largest value of its curve
+  std::string where;  ///< in the study file
+};
+
+/// What leaving an effect out costs and saves: the scene as it is beside the scene with these settings.
+struct LeftOut {
+  std::string name;
+  std::vector<std::string> set;
+};
+
+struct Study {
+  std::string name;  ///< file name without its ending
+  std::string title;
+  std::string path;
+  std::string scene;             ///< a file, relative to the study's folder, or the name of a shipped scene
+  std::vector<std::string> set;  ///< of all members
+  std::vector<Axis> axes;
+  std::vector<Result> results;
+  std::vector<LeftOut> left_out;
+  bool timing = true;        ///< members run one at a time; else side by side on the free cores
+  int repeats = 3;           ///< of runs shorter than
+  double repeat_under = 20;  ///< s
+  int threads = 0;           ///< of each run; 0: all cores where times are taken, else 1
+
+  /// The axis along which errors are fitted.
+  std::optional<size_t> refined() const {
+    for (size_t a = 0; a < axes.size(); ++a)
+      if (axes[a].refined)
+        return a;
+    return std::nullopt;
+  }
+};
+
+}  // namespace riven::study

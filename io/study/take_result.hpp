@@ -1,0 +1,23 @@
+// Results of a run: numbers taken from its history, and how far they are from what they should be.
+#pragma once
+#include "io/study/numeric_table.hpp"
+#include "io/study/study.hpp"
+
+namespace riven::study {
+
+/// A result of one member. NaN where the run did not get so far.
+struct Taken {
+  double value = 0;  ///< in SI; against a curve, the rms difference
+  double error =
+      0;  ///< relative, not negative; NaN without a reference, or while the reference is not extrapolated yet
+  std::string unit;
+};
+
+/// `column`: see column_of. Throws Error (bad_input) where the column does not exist, a quantity's unit does not fit
+/// it, no row lies in the window, or a curve cannot be read.
+Taken take_result(const Result& result, const std::string& column, const NumericTable& history);
+
+/// |value - reference| over the result's scale, or over |reference|.
+double relative_error(const Result& result, double value, double reference, const std::string& unit);
+
+}  // namespace riven::study

@@ -1,0 +1,70 @@
+#include "io/summarize.hpp"
+
+#include "core/scene/names.hpp"
+#include "io/peak_memory.hpp"
+#include "io/tip_report.hpp"
+
+namespace riven {
+
+namespace {
+
+template <class Real>
+std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
+  std::vector<Summary::Warning> list;
+  const CrackFields& f = m.state.fields;
+  if (f.warning_both_sides > 0)
+    list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
+  if (f.warning_fourth_crack > 0)
+    list.push_back({"a node sees more than three cracks", f.warning_fourth_crack, f.warning_place[1]});
+  const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
+  if (capped > 0)
+    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, {}});
+  const FractureReport& j = m.fracture;
+  const auto say = [&](const char* kind, long count, Vec2 place) {
+    if (count > 0)
+      list.push_back({kind, count, place});
+  };
+  say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
+  say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
+  say("a J contour leaves the solid however small", j.unsound, j.place[2]);
+  return list;
+}
+
+}  // namespace
+
+template <class Real>
+Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
+  const auto& s = m.state;
+  const Energy& e = s.ledger.energy;
+  Summary out;
+  out.scene = m.scene.name;
+  out.title = m.scene.title;
+  out.steps = s.clock.step;
+  out.time = s.clock.time;
+  out.wall_seconds = wall_seconds;
+  out.particles = s.particles.count();
+  out.particle_steps_per_second = static_cast<double>(out.particles) * static_cast<double>(out.steps) / wall_seconds;
+  out.peak_memory_bytes = peak_memory();
+  out.threads = m.space.threads();
+  out.exec = exec::name(m.space.kind());
+  out.scatter = name_of(m.plan.scatter);
+  out.precision = name_of(m.scene.precision);
+  out.effects = m.plan.effects();
+  for (const TaskOf<Real>& t : m.tasks)
+    out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
+  out.energy = {e.kinetic,   e.strain,  e.cohesive,    e.external_work, e.damping, e.contact,         e.fracture,
+                e.debonding, e.capture, e.numerical(), e.transfer,      e.largest, e.relative_error()};
+  out.momentum_error = s.ledger.momentum.error();
+  out.angular_momentum_error = s.ledger.momentum.angular_error();
+  out.warnings = warnings(m);
+  out.tips = summarize_tips(s.tips, s.cracks);
+  out.cracks = summarize_cracks(s.cracks);
+  for (const ConstraintOwner& o : s.constraints.owners)
+    out.reactions.push_back({o.name, o.reaction});
+  return out;
+}
+
+template Summary summarize(const SimulationOf<double>&, double);
+template Summary summarize(const SimulationOf<float>&, double);
+
+}  // namespace riven

@@ -1,0 +1,27 @@
+#include "kernels/make_derived.hpp"
+
+#include "core/state/make_state.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/hash_cracks.hpp"
+#include "kernels/sort_particles.hpp"
+
+namespace riven {
+
+template <class Real>
+void make_derived(SimulationOf<Real>& m) {
+  State<Real, 2>& s = m.state;
+  list_tiles(s.grid.lattice, s.particles.tiles);
+  for (size_t i = 0; i < s.loads.position.size(); ++i)
+    s.loads.position[static_cast<size_t>(s.particles.id[static_cast<long>(i)])] = static_cast<int>(i);
+  if (m.plan.cracks && s.fields.hashed.size() == s.cracks.points())  // else they are to be hashed first
+    with_shape(m.plan.shape, [&](auto shape) {
+      list_segments<typename decltype(shape)::type>(m.space, s.grid.lattice, s.cracks, s.fields);
+    });
+  size_grid(m.plan, s);
+  s.clock.limiter = s.clock.stable_limiter = "as before the restart";
+}
+
+template void make_derived(SimulationOf<double>&);
+template void make_derived(SimulationOf<float>&);
+
+}  // namespace riven

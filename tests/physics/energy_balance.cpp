@@ -1,0 +1,91 @@
+// Energy goes somewhere: kinetic, strain and cohesive energy with all that was taken by contact, damping, debonding,
+// prescribed motion and the transfer make up the work done. What a growing crack takes is worn down as short waves, and
+// so is the transfer's; FLIP keeps these waves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/physics/scene_gates.hpp"
+#include "tests/physics/scenes.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+
+struct Balance {
+  Energy energy;   ///< at the end
+  double off = 0;  ///< largest part of the work done so far, or of the largest energy, that nothing accounts for
+};
+
+Balance balance(const Scene& s, int every = 10) {
+  const exec::Space space;
+  Simulation m(s, space);
+  m.take_stock();
+  Balance b;
+  while (!m.finished()) {
+    m.step();
+    if (m.state.clock.step % every == 0 || m.finished()) {
+      m.take_stock();
+      b.energy = m.state.ledger.energy;
+      b.off = std::max(b.off, std::abs(b.energy.relative_error()));
+    }
+  }
+  return b;
+}
+
+/// Cracks grow by some hundred cells, cross, run out and close.
+TEST(EnergyBalance, ClosesWithTenGrowingCracks) {
+  const Balance b = balance(gates::shipped("ten_cracks_fast", {}));
+  EXPECT_LT(b.off, 0.005);
+  EXPECT_LT(std::abs(b.energy.unaccounted()), 0.005 * b.energy.external_work);
+  EXPECT_GT(b.energy.transfer, 0.5 * b.energy.fracture) << "short waves must have been worn down";
+  EXPECT_GT(b.energy.fracture, 0.3 * b.energy.external_work) << "cracks must have grown";
+}
+
+TEST(EnergyBalance, ClosesWithTenGrowingCracksAndFlip) {
+  const Balance b = balance(gates::shipped("ten_cracks_fast", {"solver.transfer=flip"}));
+  EXPECT_LT(b.off, 0.005);
+  EXPECT_EQ(b.energy.transfer, 0);
+  EXPECT_GT(b.energy.kinetic, 0.5 * b.energy.fracture) << "and keeps them";
+}
+
+/// Grips that move at once catch their nodes as a hammer would: half of the first step's work.
+TEST(EnergyBalance, ClosesWhereGripsStartAtOnce) {
+  Scene s = gates::shipped("ten_cracks_fast", {"solver.transfer=flip"});
+  s.growth.reset();
+  s.cracks.clear();
+  s.end_time = 4e-5;
+  const Balance b = balance(s, 1);
+  EXPECT_GT(b.energy.capture, 0.002 * b.energy.external_work);
+  EXPECT_LT(std::abs(b.energy.unaccounted()), 5e-4 * b.energy.external_work);
+}
+
+/// What each transfer takes from waves of a few cells is booked as they are worn down, whichever it is.
+TEST(EnergyBalance, NamesWhatTheTransferTakes) {
+  struct Choice {
+    Transfer transfer;
+    int order;
+    double pic_fraction;
+  };
+  for (const Choice& c : {Choice{Transfer::pic, 1, 0.1},
+                          {Transfer::pic, 1, 1},
+                          {Transfer::xpic, 2, 0},
+                          {Transfer::xpic, 3, 0},
+                          {Transfer::fmpm, 1, 0},
+                          {Transfer::fmpm, 2, 0},
+                          {Transfer::fmpm, 4, 0}}) {
+    Scene s = gates::shipped("flying_block", {"solver.time=0.1 s"});
+    s.transfer = c.transfer;
+    s.order = c.order;
+    s.pic_fraction = c.pic_fraction;
+    const Balance b = balance(s);
+    const double lost = b.energy.first - b.energy.total();
+    EXPECT_GT(lost, 0) << c.order;
+    EXPECT_NEAR(b.energy.transfer, lost, 1e-3 * b.energy.first) << c.order;
+  }
+}
+
+}  // namespace
+}  // namespace riven

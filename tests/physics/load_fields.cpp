@@ -1,0 +1,135 @@
+// Loads that vary over places and time: their sums, their impulse and their work against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tests/physics/scenes.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+
+/// A block of 1 x 1 m and 1000 kg in free space.
+Scene block() {
+  Scene s = empty_scene(1. / 8, {{-0.5, -0.5}, {1.5, 1.5}});
+  s.bodies = {body("block", Rectangle{{0, 0}, {1, 1}})};
+  return s;
+}
+
+Load acceleration(const Scene& s, Field x) {
+  Load load;
+  load.kind = Load::Kind::acceleration;
+  load.region = s.bodies[0].region;
+  load.value[0] = std::move(x);
+  return load;
+}
+
+/// a = X t.
+Field ramp() {
+  return {1, [](double t, long n, const double* X, const double*, double* out) {
+            for (long i = 0; i < n; ++i)
+              out[i] = X[i] * t;
+          }};
+}
+
+TEST(LoadFields, AUniformAccelerationIsTheBodyForce) {
+  Scene with_load = block(), with_gravity = block();
+  with_load.loads = {acceleration(with_load, constant(3))};
+  with_gravity.body_force[0] = constant(3);
+  const exec::Space space;
+  Simulation a(with_load, space), b(with_gravity, space);
+  for (int k = 0; k < 50; ++k) {
+    a.step();
+    b.step();
+  }
+  a.take_stock();
+  b.take_stock();
+  const double v = 3 * b.state.clock.time;
+  for (int i = 0; i < a.state.particles.count(); ++i) {
+    EXPECT_NEAR(a.state.particles.v[0][i], v, 1e-12 * v);
+    EXPECT_NEAR(b.state.particles.v[0][i], v, 1e-12 * v);
+  }
+  const double work = 0.5 * 1000 * v * v;
+  EXPECT_NEAR(a.state.ledger.energy.external_work, work, 0.02 * work);  // booked half a step late
+  EXPECT_LT(a.state.ledger.momentum.error(), 1e-13);
+}
+
+/// The impulse of a(X, t) = X t on a block of mass M between 0 and 1 is M T^2 / 4: particles sit evenly about the
+/// middle, and a step takes the load as it is in its middle.
+TEST(LoadFields, GiveTheImpulseOfTheirIntegral) {
+  Scene s = block();
+  s.loads = {acceleration(s, ramp())};
+  const exec::Space space;
+  Simulation m(s, space);
+  for (int k = 0; k < 40; ++k)
+    m.step();
+  m.take_stock();
+  const double T = m.state.clock.time, impulse = 1000 * T * T / 4;
+  EXPECT_NEAR(m.state.ledger.momentum.linear.x, impulse, 1e-12 * impulse);
+  EXPECT_NEAR(m.state.ledger.momentum.impulse.x, impulse, 1e-12 * impulse);
+  EXPECT_LT(m.state.ledger.momentum.error(), 1e-13);
+}
+
+/// A traction that rises along the edge has the resultant and the moment of its triangle.
+TEST(LoadFields, GiveTheMomentOfATractionThatVariesAlongItsEdge) {
+  Scene s = block();
+  Load load;
+  load.kind = Load::Kind::traction;
+  load.edge = Load::Edge::right;
+  load.region = s.bodies[0].region;
+  load.value[0] = {60, [](double, long n, const double*, const double* Y, double* out) { std::copy(Y, Y + n, out); }};
+  s.loads = {load};
+  const exec::Space space;
+  Simulation m(s, space);
+  m.step();
+  Vec2 force;
+  double moment = 0;
+  for (size_t k = 0; k < m.state.loads.force.size(); ++k) {
+    force += m.state.loads.force[k];
+    moment += cross(m.state.loads.applied_at[k], m.state.loads.force[k]);
+  }
+  EXPECT_NEAR(force.x, 30, 1e-12);
+  EXPECT_EQ(force.y, 0);
+  EXPECT_NEAR(moment, -20, 0.02);  // -60 times the mean of y^2 over the rows of particles
+}
+
+TEST(LoadFields, AreTheSameOnAnyNumberOfThreads) {
+  const auto run = [](int threads) {
+    Scene s = block();
+    s.bodies[0].particles_per_cell = 5;
+    s.loads = {acceleration(s, ramp())};
+    const exec::Space space(exec::Kind::openmp, threads);
+    Simulation m(s, space);
+    for (int k = 0; k < 20; ++k)
+      m.step();
+    return std::vector<double>(m.state.particles.x[0].begin(), m.state.particles.x[0].end());
+  };
+  EXPECT_EQ(run(1), run(3));
+}
+
+/// Fields that are not finite where they act are refused before the first step, with the place.
+TEST(LoadFields, MustBeNumbersWhereTheyAct) {
+  const auto bad = [](double, long n, const double* X, const double*, double* out) {
+    for (long i = 0; i < n; ++i)
+      out[i] = std::sqrt(0.5 - X[i]);
+  };
+  Scene load = block(), velocity = block();
+  load.loads = {acceleration(load, Field(1, bad))};
+  load.loads[0].name = "wind";
+  velocity.bodies[0].velocity_field[0] = Field(1, bad);
+  const exec::Space space;
+  for (const Scene* s : {&load, &velocity})
+    try {
+      const Simulation m(*s, space);
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::bad_input);
+      EXPECT_NE(std::string(e.what()).find("is not a number everywhere"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(s == &load ? "load \"wind\"" : "body \"block\""), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace riven

@@ -1,0 +1,145 @@
+// Cracks that meet: stars of cracks that end on one node, two tips in one cell, cracks half a cell apart.
+#include <numbers>
+
+#include "tests/physics/plates.hpp"
+#include "tests/stability/gates.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+using namespace hard_cases;
+
+constexpr double coarse = 0.125;  ///< m
+constexpr Vec2 on_a_node{1.5, 1.5}, beside_one{1.53, 1.46};
+
+const char* name_of(Vec2 middle) {
+  return middle == on_a_node ? "on a node" : "beside one";
+}
+
+/// A plate of 24 x 24 coarse cells under tension on all sides, from whose middle cracks run in all directions.
+Scene star(int arms, const Vec2 middle, Transfer transfer, double cell = coarse) {
+  constexpr double h = coarse, edge = 24 * h;
+  Scene s = empty_scene(cell, {{-8 * h, -8 * h}, {edge + 8 * h, edge + 8 * h}});
+  s.bodies = {body("plate", Rectangle{{0, 0}, {edge, edge}})};
+  s.transfer = transfer;
+  for (int k = 0; k < arms; ++k) {
+    const double angle = 2 * std::numbers::pi * k / arms;
+    s.cracks.push_back(crack("arm", {middle, middle + 6 * h * Vec2{std::cos(angle), std::sin(angle)}}));
+  }
+  using enum Load::Edge;
+  for (const Load::Edge side : {left, right, bottom, top}) {
+    Load pull;
+    pull.name = name_of(side);
+    pull.kind = Load::Kind::traction;
+    pull.edge = side;
+    pull.region = s.bodies[0].region;
+    const bool across = side == bottom || side == top;
+    pull.value[across] = TimeFunction{(side == left || side == bottom ? -1 : 1) * 1e3,
+                                      [](double t) { return std::min(1., t / 0.1); }, ""};
+    s.loads.push_back(pull);
+  }
+  return s;
+}
+
+TEST(Star, StandsTensionOnAllSides) {
+  for (const int arms : {3, 4, 5})
+    for (const Vec2 middle : {on_a_node, beside_one})
+      for (const Transfer transfer : {Transfer::flip, Transfer::fmpm}) {
+        const Scene s = star(arms, middle, transfer);
+        const exec::Space space;
+        Simulation m(s, space);
+        Account account(m);
+        double fastest = 0;
+        for (int n = 0; n < 200; ++n) {
+          run(m, account, 10);
+          const auto& p = m.state.particles;
+          for (int i = 0; i < p.count(); ++i)
+            fastest = std::max(fastest, std::hypot(p.v[0][i], p.v[1][i]));
+        }
+        const std::string row = fmt::format("star of {} {}, {}", arms, name_of(middle), name_of(transfer));
+        below(row + ": momentum error", account.momentum, 1e-12);
+        below(row + ": fastest particle over 100 sigma / (rho c)", fastest / (100 * 1e3 / (1000 * wave_speed(solid()))),
+              1);
+        EXPECT_FALSE(account.nan);
+        if (transfer == Transfer::flip)
+          below(row + ": energy error in 2000 steps", account.energy, 0.02);
+        if (arms > 3) {
+          above(row + ": pairs that met a fourth crack, counted",
+                static_cast<double>(m.state.fields.warning_fourth_crack), 0);
+        } else {
+          below(row + ": pairs that met a fourth crack", static_cast<double>(m.state.fields.warning_fourth_crack), 1);
+        }
+      }
+}
+
+/// m, by which the particles within a coarse cell of the middle have moved away from it, the mean over the time in
+/// which waves go through the plate ten times.
+double opening(const Scene& s, const Vec2 middle) {
+  const exec::Space space;
+  Simulation m(s, space);
+  const double end = 10 * 24 * coarse / wave_speed(solid());
+  double sum = 0;
+  while (m.state.clock.time < end) {
+    m.step();
+    const auto& p = m.state.particles;
+    double moved = 0;
+    int near = 0;
+    for (int i = 0; i < p.count(); ++i) {
+      const Vec2 r = Vec2{p.x0[0][i], p.x0[1][i]} - middle, u = Vec2{p.x[0][i] - p.x0[0][i], p.x[1][i] - p.x0[1][i]};
+      if (norm(r) < coarse) {
+        moved += dot(u, r) / norm(r);
+        ++near;
+      }
+    }
+    sum += m.state.clock.dt * moved / near;
+  }
+  return sum / m.state.clock.time;
+}
+
+TEST(Star, OpensAtItsMiddleOnACoarseGridAsOnAFineOne) {
+  for (const int arms : {3, 4, 5})
+    for (const Vec2 middle : {beside_one}) {
+      const double wide = opening(star(arms, middle, Transfer::fmpm, coarse), middle);
+      const double right = opening(star(arms, middle, Transfer::fmpm, coarse / 4), middle);
+      below(fmt::format("star of {} {}: opening less that on cells of a quarter", arms, name_of(middle)),
+            std::abs(wide / right - 1), 0.1);
+    }
+}
+
+constexpr double mm = 1e-3;
+
+/// The edge crack of `sent`, or two such, `apart`, on cells of 1 mm; J of all of them.
+std::vector<double> J_of_edge_cracks(const std::vector<double>& places, double length, int contour) {
+  Scene s = gates::shipped("sent", {"grid.cell=1 mm"});
+  const CrackLine line = s.cracks[0];
+  s.cracks.clear();
+  for (const double y : places) {
+    s.cracks.push_back(line);
+    s.cracks.back().points = {{-mm, y}, {length, y}};
+  }
+  gates::Plate plate(s);
+  plate.hold();
+  std::vector<double> J;
+  J.reserve(places.size());
+  for (size_t k = 0; k < places.size(); ++k)
+    J.push_back(plate.tip(contour, JMethod::fijc_adaptive, k).J);
+  EXPECT_FALSE(has_nan(plate.simulation().state.particles));
+  return J;
+}
+
+/// Cracks that are far nearer to each other than they are long take from the field around them what one takes: their
+/// tips share the J of one. On cells of 1 mm, half and a quarter of a cell apart.
+TEST(NeighbourCracks, ShareTheJOfOne) {
+  const double alone = J_of_edge_cracks({0}, 25 * mm, 8)[0];
+  for (const double apart : {0.5 * mm, 0.25 * mm}) {
+    const std::vector<double> J = J_of_edge_cracks({-apart / 2, apart / 2}, 25 * mm, 8);
+    const std::string row =
+        fmt::format("parallel cracks {} cells apart, tips as far: J over half of that of one", apart / mm);
+    for (const double j : J)
+      below(row + ", less 1", std::abs(j / (0.5 * alone) - 1), 0.25);
+  }
+}
+
+}  // namespace
+}  // namespace riven
