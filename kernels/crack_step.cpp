@@ -1,5 +1,6 @@
 #include "kernels/crack_step.hpp"
 
+#include "core/state/junctions.hpp"
 #include "core/state/make_state.hpp"
 #include "kernels/assign_fields.hpp"
 #include "kernels/dispatch.hpp"
@@ -49,6 +50,7 @@ void move_with_grid(SimulationOf<Real>& m) {
         m.space, s.grid, s.fields, {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass},
         s.clock.dt, s.cracks);
   });
+  tie_junctions(s.cracks, m.scene.cell);
 }
 
 #define RIVEN_TASKS(Real)                         \

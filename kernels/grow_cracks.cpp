@@ -220,7 +220,6 @@ class Growth {
 template <class Real>
 void grow_cracks(SimulationOf<Real>& m) {
   auto& s = m.state;
-  tie_junctions(s.cracks, m.scene.cell);
   std::vector<Rectangle> boxes;  // only once a tip is due
   for (Tip& tip : s.tips) {
     if (!growth_due(tip, s.clock.step) || tip.step != s.clock.step)

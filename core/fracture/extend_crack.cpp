@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/junctions.hpp"
+
 namespace riven {
-
-namespace {
-
-constexpr double overshoot = 1e-6;  // cells
-
-Vec2 unit(Vec2 v) {
-  const double length = norm(v);
-  return length > 0 ? v * (1 / length) : Vec2{};
-}
-
-}  // namespace
 
 int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) {
   const long points = cracks.points(), at = last ? cracks.end_point(crack, true) + 1 : cracks.end_point(crack, false);
@@ -113,23 +104,12 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
 
 void join_crack(Cracks& cracks, const Obstacle& o, Vec2 plane0, double h) {
   const Junction& j = o.on;
-  const Vec2 before = cracks.plane[cracks.end_point(j.crack, j.last)];
-  const int at = extend_crack(cracks, j.crack, j.last, o.place, plane0);
-  // its surfaces begin on this side of the crack joined
-  cracks.upper[at] = cracks.lower[at] = o.place - (overshoot * h) * unit(o.place - before);
+  extend_crack(cracks, j.crack, j.last, o.place, plane0);
+  part_surfaces(cracks, j, o.place, h);
   cracks.junctions.push_back(j);
   if (j.other == j.crack && !j.last)
     ++cracks.junctions.back().segment;  // which was counted before the new point
   tie_junctions(cracks, h);
-}
-
-void tie_junctions(Cracks& cracks, double h) {
-  for (const Junction& j : cracks.junctions) {
-    const int a = cracks.start[static_cast<size_t>(j.other)] + j.segment;
-    const int end = cracks.end_point(j.crack, j.last), before = cracks.next_to_end(j.crack, j.last);
-    const Vec2 place = cracks.plane[a] + j.along * (cracks.plane[a + 1] - cracks.plane[a]);
-    cracks.plane[end] = place + (overshoot * h) * unit(place - cracks.plane[before]);
-  }
 }
 
 }  // namespace riven

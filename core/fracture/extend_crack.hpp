@@ -1,4 +1,4 @@
-// Points and junctions added at the ends of cracks.
+// Points added at the ends of cracks, up to other cracks.
 #pragma once
 #include <optional>
 #include <vector>
@@ -33,9 +33,5 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
 
 /// Extends a crack up to an obstacle and ties its end to it.
 void join_crack(Cracks& cracks, const Obstacle& obstacle, Vec2 plane0, double h);
-
-/// Puts the ends that have joined cracks where these have gone to. They reach over the crack joined by 1e-6 h, so that
-/// no path from a particle to a node leads through between them; their surfaces stay as they are.
-void tie_junctions(Cracks& cracks, double h);
 
 }  // namespace riven

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/state/junctions.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "core/state/tractions.hpp"
@@ -145,6 +146,7 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     for (const Body& b : scene.bodies)
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
+    tie_from_start(scene, s.cracks);
     if (plan.fracture)
       for (const Tip& t : make_tips(scene))
         s.cracks.set_open(t.crack, t.last, true);

@@ -53,6 +53,11 @@ int body_at(const Scene& scene, Vec2 x) {
   return -1;
 }
 
+double junction_reach(const Scene& scene, int body) {
+  // a little less than half a particle, so that an end exactly as far from an edge is a tip whatever rounding does
+  return 0.499 * scene.cell / scene.bodies[static_cast<size_t>(body)].particles_per_cell;
+}
+
 std::vector<Tip> make_tips(const Scene& scene) {
   std::vector<Tip> tips;
   for (size_t c = 0; c < scene.cracks.size(); ++c)
@@ -63,8 +68,7 @@ std::vector<Tip> make_tips(const Scene& scene) {
       if (b < 0)
         continue;
       const Body& body = scene.bodies[static_cast<size_t>(b)];
-      // a little less, so that an end exactly half a particle away from an edge is a tip whatever rounding does
-      const double radius = 0.499 * scene.cell / body.particles_per_cell;
+      const double radius = junction_reach(scene, b);
       if (!well_inside(scene, x, radius) || on_crack(scene, c, last, radius))
         continue;
       Tip tip;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/state/junctions.hpp"
+
 namespace riven {
 namespace {
 
