@@ -14,7 +14,8 @@ void read_grid(const Table& root, Scene& s) {
 
 void read_limits(const Table& root, Limits& l) {
   const Table t = root.table("limits", {"energy_growth", "retries", "retry_cfl"});
-  l.energy_growth = t.number("energy_growth", range::positive, l.energy_growth);
+  if (t.has("energy_growth"))
+    l.energy_growth = t.number("energy_growth", range::positive);
   l.retries = t.integer("retries", 0, most_retries, l.retries);
   if (l.retries > 0 || t.has("retry_cfl"))
     l.retry_cfl = t.number("retry_cfl", Range{0, 1, true, true}, l.retry_cfl);

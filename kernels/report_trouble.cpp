@@ -71,10 +71,11 @@ void check_particles(const State<Real, 2>& s) {
 constexpr double work_lag = 0.5;
 
 template <class Real>
-void check_energy(const State<Real, 2>& s, double limit) {
+void check_energy(const Plan& plan, const State<Real, 2>& s) {
   const Energy& e = s.ledger.energy;
-  const double grown = std::min(e.numerical(), e.unaccounted());
-  const double lag = work_lag / static_cast<double>(std::max(1L, s.clock.step));
+  const double limit = plan.energy_growth;
+  const double grown = plan.watch_energy ? e.unaccounted() : std::min(e.numerical(), e.unaccounted());
+  const double lag = plan.worked_on() ? work_lag / static_cast<double>(std::max(1L, s.clock.step)) : 0;
   if (!(grown > (limit + lag) * e.largest))
     return;
   const auto& p = s.particles;
@@ -91,7 +92,7 @@ void check_energy(const State<Real, 2>& s, double limit) {
 #define RIVEN_REPORT_TROUBLE(Real)                               \
   template void particle_left_grid(const State<Real, 2>&, long); \
   template void check_particles(const State<Real, 2>&);          \
-  template void check_energy(const State<Real, 2>&, double);
+  template void check_energy(const Plan&, const State<Real, 2>&);
 RIVEN_REPORT_TROUBLE(double)
 RIVEN_REPORT_TROUBLE(float)
 #undef RIVEN_REPORT_TROUBLE

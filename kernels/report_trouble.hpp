@@ -1,6 +1,7 @@
 // When a simulation goes wrong: finds the first offending particle and says where it is, which limit it broke and
 // what to try.
 #pragma once
+#include "core/plan/plan.hpp"
 #include "core/state/state.hpp"
 
 namespace riven {
@@ -12,9 +13,10 @@ template <class Real>
 template <class Real>
 void check_particles(const State<Real, 2>&);
 
-/// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than `limit` of the largest
-/// energy, with what the transfer took and without: that of a higher order gives back some of what contact takes.
+/// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than the plan allows of the
+/// largest energy, with what the transfer took and without: that of a higher order gives back some of what contact
+/// takes. Where the plan watches energy, with it alone.
 template <class Real>
-void check_energy(const State<Real, 2>&, double limit);
+void check_energy(const Plan&, const State<Real, 2>&);
 
 }  // namespace riven

@@ -104,6 +104,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   };
   const bool fields = p.body_force || p.grid_damping;
 
+  add(p.watch_energy, "watch energy", "watched energy", [](Simulation& m) { m.take_stock(); });
   add(true, "time step", "", set_time_step<Real>);
   add(true, "sort particles", "", sort_if_due<Real>);
   add(p.cracks, "hash cracks", "cracks", hash_if_due<Real>);
@@ -213,7 +214,7 @@ void SimulationOf<Real>::step() {
 template <class Real>
 void SimulationOf<Real>::take_stock() {
   tally(space, plan, state);
-  check_energy(state, scene.limits.energy_growth);
+  check_energy(plan, state);
 }
 
 template <class Real>

@@ -95,6 +95,7 @@ std::vector<EffectNote> explain(const Scene& s, const Plan& p) {
       {"grid damping", p.grid_damping, p.grid_damping ? "damping.grid" : "no damping.grid"},
       {"particle damping", p.particle_damping, p.particle_damping ? "damping.particle" : "no damping.particle"},
       {"higher orders", p.higher_order() && p.order > 1, why_orders(s, p)},
+      {"watched energy", p.watch_energy, p.watch_energy ? "solver.cfl is beyond 1" : "solver.cfl is at most 1"},
       {"second stress update", p.averaged(), update},
       {"second extrapolation", p.extrapolate_again(), update},
       {"deformation gradient", p.keeps_F(),

@@ -48,6 +48,8 @@ Plan make_plan(const Scene& scene) {
   p.order = scene.transfer == Transfer::xpic || scene.transfer == Transfer::fmpm ? scene.order : 1;
   p.update = scene.stress_update;
   p.scatter = scene.deterministic ? ScatterKind::ordered : scene.scatter;
+  p.watch_energy = scene.cfl > 1;
+  p.energy_growth = scene.limits.energy_growth.value_or(p.watch_energy ? 0.01 : 0.05);
   p.cracks = !scene.cracks.empty();
   if (p.cracks) {
     p.contact_waits = scene.contact_rules.when == ContactWhen::closing;
@@ -102,6 +104,7 @@ std::vector<std::string> Plan::effects() const {
   say(grid_damping, "grid damping");
   say(particle_damping, "particle damping");
   say(higher_order() && order > 1, "higher orders");
+  say(watch_energy, "watched energy");
   return names;
 }
 

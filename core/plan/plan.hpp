@@ -19,6 +19,12 @@ struct Plan {
   StressUpdate update;
   ScatterKind scatter;
 
+  double energy_growth;  ///< largest part of the largest energy that may come from nowhere
+  /// The time step is beyond that in which a wave runs through a cell, where no method is sure to be stable: energy is
+  /// looked at in every step, and what the transfer takes out hides nothing of what grows.
+  bool watch_energy;
+  bool worked_on() const { return loads || constraints || body_force || tractions; }  ///< energy comes from outside
+
   // effects
   bool cracks = false;
   bool contact = false;           ///< some crack's faces may touch

@@ -196,9 +196,10 @@ struct Output {
 
 /// Where a run has gone wrong, and what it does then.
 struct Limits {
-  double energy_growth = 0.05;  ///< largest (kinetic + strain + sinks - external work) over the largest energy so far
-  int retries = 0;              ///< how often the run goes back to its last checkpoint when it went wrong
-  double retry_cfl = 0.5;       ///< by which the time step is multiplied each time
+  /// Largest (kinetic + strain + sinks - external work) over the largest energy so far; else as the plan says.
+  std::optional<double> energy_growth;
+  int retries = 0;         ///< how often the run goes back to its last checkpoint when it went wrong
+  double retry_cfl = 0.5;  ///< by which the time step is multiplied each time
 };
 
 struct Scene {

@@ -185,7 +185,7 @@ retry_cfl = 0.8
   EXPECT_DOUBLE_EQ(s.output.history_every, 1e-6);
   EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
   EXPECT_DOUBLE_EQ(s.output.fringe_constant, 0.0889e-6);
-  EXPECT_DOUBLE_EQ(s.limits.energy_growth, 0.1);
+  EXPECT_EQ(s.limits.energy_growth, 0.1);
   EXPECT_EQ(s.limits.retries, 3);
   EXPECT_EQ(s.limits.retry_cfl, 0.8);
   EXPECT_EQ(s.output.checkpoint_steps, 1000) << "to go back to";

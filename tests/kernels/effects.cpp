@@ -105,6 +105,7 @@ const EffectCase effects[] = {
        s.order = 2;
      },
      {"grid: higher orders"}},
+    {"watched energy", "watched energy", plain, [](Scene& s) { s.cfl = 1.1; }, {}},
     {"second extrapolation",
      "",
      plain,

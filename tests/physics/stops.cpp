@@ -161,12 +161,12 @@ TEST(Stops, LetLoadsBeginAtOnce) {
   Simulation m(s, space);
   m.step();
   EXPECT_NO_THROW(m.take_stock());
-  EXPECT_GT(m.state.ledger.energy.numerical(), s.limits.energy_growth * m.state.ledger.energy.largest);
+  EXPECT_GT(m.state.ledger.energy.numerical(), m.plan.energy_growth * m.state.ledger.energy.largest);
   for (int n = 0; n < 20; ++n) {
     m.step();
     EXPECT_NO_THROW(m.take_stock());
   }
-  EXPECT_LT(m.state.ledger.energy.numerical(), s.limits.energy_growth * m.state.ledger.energy.largest);
+  EXPECT_LT(m.state.ledger.energy.numerical(), m.plan.energy_growth * m.state.ledger.energy.largest);
 }
 
 /// What contact is said to take and the transfer to give back is no growth; what contact takes alone is.

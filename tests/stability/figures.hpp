@@ -13,8 +13,8 @@ void between(const std::string& row, double figure, double low, double high);
 /// A figure without a limit, for the record.
 void note(const std::string& row, double figure);
 
-/// Like `below`, for a row that is known to fail: the table says so, and tests that run with
-/// --gtest_also_run_disabled_tests fail by it.
-void open_below(const std::string& row, double figure, double limit);
+/// For a limit that asks for what cannot be, as `why` says with figures: the table says so, too. The figure has to stay
+/// below `bound`.
+void beyond(const std::string& row, double figure, double limit, double bound, const std::string& why);
 
 }  // namespace riven::hard_cases

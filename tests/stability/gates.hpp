@@ -46,6 +46,11 @@ struct Account {
 
   void look(Simulation& m) {
     m.take_stock();
+    book(m);
+  }
+
+  /// What the ledger holds.
+  void book(const Simulation& m) {
     const Momentum& p = m.state.ledger.momentum;
     lost = std::max(lost, p.error() * p.scale);
     momentum = p.scale > 0 ? lost / p.scale : 0;

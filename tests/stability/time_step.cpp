@@ -2,6 +2,7 @@
 // either does or is stopped within 50 steps after it no longer does. (Counted from the start that would be too soon:
 // waves that grow begin as rounding, and for hundreds of steps nothing is amiss yet, as these figures show.) No number
 // that is none is ever left behind.
+#include "kernels/tally.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -42,7 +43,9 @@ Ran beat(const Scene& s, int steps) {
   Ran r;
   try {
     while (m.state.clock.step < steps) {
-      run(m, account, 1, 1);
+      m.step();  // beyond a CFL number of 1, it watches the energy itself
+      tally(space, m.plan, m.state);
+      account.book(m);
       if (account.energy < 0.01)
         r.amiss = m.state.clock.step + 1;
     }
@@ -66,14 +69,18 @@ TEST(TimeStep, IsStableBelowOneAndStoppedBeyond) {
           below(row + ": stopped at step", static_cast<double>(r.stopped), 1);
         if (cfl > 1.2 && r.stopped > 0) {
           note(row + ": energy amiss by 1 % at step", static_cast<double>(r.amiss));
-          (update == StressUpdate::usf ? open_below : below)(row + ": steps from there until it was stopped",
-                                                             static_cast<double>(r.stopped - r.amiss), 51);
+          below(row + ": steps from there until it was stopped", static_cast<double>(r.stopped - r.amiss), 51);
         } else if (cfl > 0.9 && cfl < 1.2)
           note(row + ": stopped at step", static_cast<double>(r.stopped));
         else if (worn)
-          (cfl > 1.2 ? open_below : below)(row + ": energy gained", r.gained, 0.01);
+          below(row + ": energy gained", r.gained, 0.01);
+        else if (cfl > 0.7 && update == StressUpdate::usf)
+          beyond(
+              row + ": energy error", r.energy, 0.01, 0.013,
+              "usf makes energy in every step, in these 500 about as the square of the CFL number (0.1 % at 0.2, 0.3 % "
+              "at 0.5), and does not become unstable by it; the default, usavg, makes 0.07 % here");
         else
-          (cfl > 0.7 ? open_below : below)(row + ": energy error", r.energy, 0.01);
+          below(row + ": energy error", r.energy, 0.01);
       }
 }
 
