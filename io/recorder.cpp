@@ -2,9 +2,22 @@
 
 #include <utility>
 
+#include "core/scene/names.hpp"
 #include "io/tip_report.hpp"
 
 namespace riven {
+
+namespace {
+
+/// The figures with a column of their own; energy and momentum are among the ledger's.
+std::vector<Watched> watched(const Plan& plan) {
+  std::vector<Watched> list{Watched::compression, Watched::expansion, Watched::velocity_difference};
+  if (plan.contact)
+    list.push_back(Watched::penetration);
+  return list;
+}
+
+}  // namespace
 
 template <class Real>
 Recorder<Real>::Recorder(const std::filesystem::path& folder, const SimulationOf<Real>& simulation,
@@ -18,6 +31,8 @@ void Recorder<Real>::row() {
   const Momentum& p = s.ledger.momentum;
   std::vector<double> v{s.clock.time,  s.clock.dt, e.kinetic,  e.strain,   e.external_work, e.damping,        e.contact,
                         e.numerical(), p.error(),  p.linear.x, p.linear.y, p.angular,       p.angular_error()};
+  for (const Watched which : watched(m_.plan))
+    v.push_back(monitor(s.monitors, which).value);
   if (m_.plan.constraints)
     v.push_back(e.capture);
   if (m_.plan.transfer != Transfer::flip)
@@ -61,6 +76,8 @@ std::vector<HistoryColumn> Recorder<Real>::columns() const {
                                {"momentum_y", "kg m/s"},
                                {"angular_momentum", "kg m^2/s"},
                                {"angular_momentum_error", ""}};
+  for (const Watched which : watched(m_.plan))
+    c.push_back({std::string(name_of(which)), which == Watched::velocity_difference ? "m/s" : ""});
   if (m_.plan.constraints)
     c.push_back({"capture", "J"});
   if (m_.plan.transfer != Transfer::flip)

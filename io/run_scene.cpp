@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
+#include "core/scene/names.hpp"
 #include "core/scene/schedule.hpp"
 #include "io/checkpoint_store.hpp"
 #include "io/event_log.hpp"
@@ -138,9 +139,11 @@ class Run {
     if (events_)
       events_->write(m_.state.events, m_.state.cracks);
     progress_->update(clock.step, clock.time, clock.dt, clock.limiter);
+    bool warned = false;
     if (report_due(m_.scene, before, clock.time)) {
       timed(monitors, [&] { m_.take_stock(); });
       timed(history, [&] { record_->row(); });
+      warned = warn();
     }
     if (m_.finished())
       return;
@@ -149,7 +152,7 @@ class Run {
       so_far_.frames_due = frames_reached(so_far_.frame_interval);
     }
     const bool stop = stop_.asked();
-    if (!stop && !checkpoints_.due(clock.step))
+    if (!stop && !warned && !checkpoints_.due(clock.step))
       return;
     if (m_.scene.limits.retries > 0)
       require_good();
@@ -158,11 +161,32 @@ class Run {
     write_checkpoint();
   }
 
+  /// Says which figures are beyond their warning limits for the first time. A run that is suspect is kept as it is
+  /// then: it may be the last good state.
+  bool warn() {
+    bool any = false;
+    for (const auto& [which, name] : Names<Watched>::table) {
+      const Monitor& w = monitor(m_.state.monitors, which);
+      if (w.first != m_.state.clock.step)
+        continue;
+      any = true;
+      const WatchedText& text = text_of(which);
+      fmt::print(stderr, "riven: warning: step {}, time {}, at ({:.4g}, {:.4g}) m: {}: {:.3g}{}{}\n", w.first,
+                 format_time(m_.state.clock.time), w.first_place.x, w.first_place.y, text.what, w.value,
+                 *text.unit ? " " : "", text.unit);
+      fmt::print(stderr, "  limit: {:.3g} (limits.warn.{})\n  try:   {}\n",
+                 m_.scene.limits.warn[static_cast<size_t>(which)], name, text.advice);
+    }
+    return any && m_.scene.output.checkpoint_every > 0;
+  }
+
   /// Throws Error (unstable) when this is no state to go back to. Leaves it as it is.
   void require_good() {
-    const Ledger before = m_.state.ledger;
+    const Ledger ledger = m_.state.ledger;
+    const Monitors figures = m_.state.monitors;
     timed(monitors, [&] { m_.take_stock(); });
-    m_.state.ledger = before;
+    m_.state.ledger = ledger;
+    m_.state.monitors = figures;
   }
 
   double reached() const { return m_.state.clock.time * (1 + 1e-12); }

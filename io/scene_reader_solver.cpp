@@ -12,8 +12,26 @@ void read_grid(const Table& root, Scene& s) {
   s.grid = {t.vector("lower", dimension::length), t.vector("upper", dimension::length)};
 }
 
-void read_limits(const Table& root, Limits& l) {
-  const Table t = root.table("limits", {"energy_growth", "retries", "retry_cfl"});
+void read_thresholds(const Table& limits, const char* name, Thresholds& thresholds) {
+  const Table t =
+      limits.table(name, {"energy", "momentum", "compression", "expansion", "penetration", "velocity_difference"});
+  for (const auto& [which, key] : Names<Watched>::table) {
+    double& limit = thresholds[static_cast<size_t>(which)];
+    if (which == Watched::velocity_difference) {
+      if (t.has(key.data()))
+        limit = t.quantity(key.data(), dimension::speed, range::positive);
+    } else if (t.has(key.data()) || limit < no_limit) {
+      limit = t.number(key.data(), range::positive, limit);
+    }
+  }
+}
+
+void read_limits(const Table& root, Precision precision, Limits& l) {
+  const Table t = root.table("limits", {"energy_growth", "retries", "retry_cfl", "warn", "stop"});
+  if (precision == Precision::as_float)
+    l.warn[static_cast<size_t>(Watched::momentum)] = 1e-4;
+  read_thresholds(t, "warn", l.warn);
+  read_thresholds(t, "stop", l.stop);
   if (t.has("energy_growth"))
     l.energy_growth = t.number("energy_growth", range::positive);
   l.retries = t.integer("retries", 0, most_retries, l.retries);
@@ -45,7 +63,7 @@ void read_solver(const Table& root, Scene& s) {
   s.exec = t.choice("exec", std::optional(s.exec));
   s.threads = t.integer("threads", 0, 4096, s.threads);
   read_grid(root, s);
-  read_limits(root, s.limits);
+  read_limits(root, s.precision, s.limits);
 }
 
 }  // namespace riven

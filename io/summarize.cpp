@@ -24,6 +24,10 @@ std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
     if (count > 0)
       list.push_back({kind, count, place});
   };
+  for (const auto& [which, name] : Names<Watched>::table) {
+    const Monitor& watched = monitor(m.state.monitors, which);
+    say(text_of(which).what, watched.beyond, watched.first_place);
+  }
   say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
   say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
   say("a J contour leaves the solid however small", j.unsound, j.place[2]);
@@ -57,6 +61,11 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   out.momentum_error = s.ledger.momentum.error();
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);
+  for (const auto& [which, name] : Names<Watched>::table)
+    if (which != Watched::penetration || m.plan.contact) {
+      const Monitor& watched = monitor(s.monitors, which);
+      out.watched.push_back({std::string(name), watched.worst, text_of(which).unit, watched.place});
+    }
   out.tips = summarize_tips(s.tips, s.cracks);
   out.cracks = summarize_cracks(s.cracks);
   for (const ConstraintOwner& o : s.constraints.owners)

@@ -98,6 +98,9 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["warnings"] = by_name(s.warnings, &Summary::Warning::kind, [](const Summary::Warning& w) {
     return Json{{"count", w.count}, {"first_place", w.count > 0 ? point(w.first_place) : Json(nullptr)}};
   });
+  j["watched"] = by_name(s.watched, &Summary::Watched::figure, [](const Summary::Watched& w) {
+    return Json{{"worst", number(w.worst)}, {"unit", w.unit}, {"place", point(w.place)}};
+  });
   j["retries"] = list(s.retries, [](const Retry& r) {
     return Json{{"step", r.step},
                 {"time", number(r.time)},

@@ -32,6 +32,12 @@ struct Summary {
     long count = 0;
     Vec2 first_place;  ///< m
   };
+  struct Watched {
+    std::string figure;
+    double worst = 0;
+    std::string unit;
+    Vec2 place;  ///< m
+  };
   struct Tip {
     std::string crack;
     std::string end;    ///< "first" or "last"
@@ -78,6 +84,7 @@ struct Summary {
   Energy energy;
   double momentum_error = 0, angular_momentum_error = 0;
   std::vector<Warning> warnings;
+  std::vector<Watched> watched;
   std::vector<Retry> retries;
   std::vector<Tip> tips;
   std::vector<Value> probes;

@@ -16,6 +16,7 @@
 #pragma once
 #include <string>
 
+#include "core/scene/names.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
@@ -34,8 +35,19 @@ template <class F>
 void each_member(StepWatch& w, F&& f) {
   f("largest_move", w.largest_move);
   f("least_J", w.least_J);
+  f("velocity_difference", w.velocity_difference);
   f("drift", w.drift);
   f("sorted_at", w.sorted_at);
+}
+
+template <class F>
+void each_member(Monitor& m, F&& f) {
+  f("value", m.value);
+  f("worst", m.worst);
+  f("place", m.place);
+  f("beyond", m.beyond);
+  f("first", m.first);
+  f("first_place", m.first_place);
 }
 
 template <class F>
@@ -224,6 +236,8 @@ void each_member(SimulationOf<Real>& m, Visitor&& f) {
   State<Real, 2>& s = m.state;
   f.record("clock", s.clock);
   f.record("watch", s.watch);
+  for (const auto& [which, name] : Names<Watched>::table)
+    f.record("monitors/" + std::string(name), s.monitors[static_cast<size_t>(which)]);
   f.record("energy", s.ledger.energy);
   f.record("momentum", s.ledger.momentum);
   visit_particles(s.particles, f);

@@ -54,6 +54,7 @@ RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* 
 template <class Real>
 struct StepNumbers {
   Real dt, keep, high_dt, damping;
+  bool compare;  ///< velocities of particles and grid
 };
 
 /// Kinetic energy that particles lose by what the transfer changes of v + a dt, m (v + v')/2 . (v + a dt - v'), J.
@@ -85,11 +86,16 @@ RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int cou
     p.vx[i] = n.keep * (vx + n.dt * m.ax[k]) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k]) - n.dt * bx;
     p.vy[i] = n.keep * (vy + n.dt * m.ay[k]) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k]) - n.dt * by;
   });
+  if (n.compare)
+    exec::for_lanes(count, [&](int k) RIVEN_LANE {
+      const Real x = std::abs(p.vx[first + k] - m.vx[k]), y = std::abs(p.vy[first + k] - m.vy[k]), most = x > y ? x : y;
+      seen.apart[k] = most > seen.apart[k] ? most : seen.apart[k];
+    });
 }
 
 template <class Real>
 StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
-  return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping)};
+  return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping), velocities_compared(s.clock.step)};
 }
 
 template <class Shape, class Law, bool High, bool Stress, class Real>
@@ -103,7 +109,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
-  const WatchTiles<Real, true, Stress> see(s.watch, rule.keep != 1);
+  const WatchTiles<Real, true, Stress> see(s.watch, rule.keep != 1, n.compare);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
@@ -148,7 +154,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
   const StepNumbers<Real> n = numbers(s, rule);
-  const WatchTiles<Real, true, false> see(s.watch, rule.keep != 1);
+  const WatchTiles<Real, true, false> see(s.watch, rule.keep != 1, n.compare);
   const TileRun<Real> tiles{
       s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
   scatter_tiles<false>(

@@ -65,25 +65,28 @@ void check_particles(const State<Real, 2>& s) {
              fmt::format("{:.4g} m/s, a cell in a step", s.grid.lattice.h / s.clock.dt));
 }
 
-/// The work of a load is booked with the particles' moves, which lag behind their momentum: when a body at rest is
-/// loaded at once, its energy, as the square of the steps, is ahead of the work by up to this part over the steps so
-/// far.
-constexpr double work_lag = 0.5;
+template <class Real>
+long fastest_particle(const Particles<Real, 2>& p) {
+  long fastest = 0;
+  for (long i = 1; i < p.count(); ++i)
+    if (std::hypot(p.v[0][i], p.v[1][i]) > std::hypot(p.v[0][fastest], p.v[1][fastest]))
+      fastest = i;
+  return fastest;
+}
+
+double work_lag(const Plan& plan, long step) {
+  return plan.worked_on() ? 0.5 / static_cast<double>(std::max(1L, step)) : 0;
+}
 
 template <class Real>
 void check_energy(const Plan& plan, const State<Real, 2>& s) {
   const Energy& e = s.ledger.energy;
   const double limit = plan.energy_growth;
   const double grown = plan.watch_energy ? e.unaccounted() : std::min(e.numerical(), e.unaccounted());
-  const double lag = plan.worked_on() ? work_lag / static_cast<double>(std::max(1L, s.clock.step)) : 0;
+  const double lag = work_lag(plan, s.clock.step);
   if (!(grown > (limit + lag) * e.largest))
     return;
-  const auto& p = s.particles;
-  long fastest = 0;
-  for (long i = 1; i < p.count(); ++i)
-    if (std::hypot(p.v[0][i], p.v[1][i]) > std::hypot(p.v[0][fastest], p.v[1][fastest]))
-      fastest = i;
-  stop(s, fastest, "energy grows without work being done; the fastest particle is named",
+  stop(s, fastest_particle(s.particles), "energy grows without work being done; the fastest particle is named",
        fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * grown / e.largest, e.largest),
        fmt::format("{:.3g} % (limits.energy_growth){}", 100 * limit,
                    lag > 0.01 * limit ? fmt::format(", and {:.3g} % so soon after the start", 100 * lag) : ""));
@@ -92,6 +95,7 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
 #define RIVEN_REPORT_TROUBLE(Real)                               \
   template void particle_left_grid(const State<Real, 2>&, long); \
   template void check_particles(const State<Real, 2>&);          \
+  template long fastest_particle(const Particles<Real, 2>&);     \
   template void check_energy(const Plan&, const State<Real, 2>&);
 RIVEN_REPORT_TROUBLE(double)
 RIVEN_REPORT_TROUBLE(float)

@@ -13,6 +13,13 @@ template <class Real>
 template <class Real>
 void check_particles(const State<Real, 2>&);
 
+template <class Real>
+long fastest_particle(const Particles<Real, 2>&);
+
+/// The work of a load is booked with the particles' moves, which lag behind their momentum: when a body at rest is
+/// loaded at once, its energy, as the square of the steps, is ahead of the work by up to this part of it.
+double work_lag(const Plan& plan, long step);
+
 /// Throws Error (unstable) if kinetic + strain + sinks outgrew the work done by more than the plan allows of the
 /// largest energy, with what the transfer took and without: that of a higher order gives back some of what contact
 /// takes. Where the plan watches energy, with it alone.

@@ -99,7 +99,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
       [&](auto& a) { permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), order.data()); });
   ++p.tiles.order;
   list_tiles(l, p.tiles);
-  for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite, &s.watch.tile_worn})
+  for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite, &s.watch.tile_worn, &s.watch.tile_apart})
     a->resize(tiles);
   s.watch.drift = 0;
   s.watch.sorted_at = s.clock.step;

@@ -21,6 +21,7 @@
 #include "kernels/tally.hpp"
 #include "kernels/time_step.hpp"
 #include "kernels/update_stress.hpp"
+#include "kernels/watch_figures.hpp"
 
 namespace riven {
 
@@ -194,6 +195,7 @@ void SimulationOf<Real>::begin() {
   contact_sums.keep_touched = plan.contact && (plan.fracture || plan.contact_waits);
   sort_particles(space, plan, state);
   tally(space, plan, state);
+  watch_figures(*this);
 }
 
 template <class Real>
@@ -214,6 +216,7 @@ void SimulationOf<Real>::step() {
 template <class Real>
 void SimulationOf<Real>::take_stock() {
   tally(space, plan, state);
+  watch_figures(*this);
   check_energy(plan, state);
 }
 

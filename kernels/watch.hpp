@@ -18,6 +18,7 @@ struct TileWatch {
   alignas(64) Real sum[lanes] = {};     ///< finite as long as every move is
   alignas(64) Real J[lanes];            ///< least det F; NaN sticks
   alignas(64) double worn[lanes] = {};  ///< J
+  alignas(64) Real apart[lanes] = {};   ///< largest difference of velocities along an axis
 
   RIVEN_INLINE TileWatch() {
     for (Real& j : J)
@@ -36,11 +37,13 @@ template <class Real, bool Moves, bool Dets>
 struct WatchTiles {
   using Seen = TileWatch<Real>;
   /// `wears`: the transfer takes energy, which is to be noticed.
-  explicit WatchTiles(StepWatch& w, bool wears = false)
+  /// `apart`: velocities of particles and grid are compared.
+  explicit WatchTiles(StepWatch& w, bool wears = false, bool apart = false)
       : move(w.tile_move.data()),
         J(w.tile_J.data()),
         finite(w.tile_finite.data()),
-        worn(wears ? w.tile_worn.data() : nullptr) {}
+        worn(wears ? w.tile_worn.data() : nullptr),
+        apart(apart ? w.tile_apart.data() : nullptr) {}
 
   RIVEN_INLINE void put(int tile, const Seen& t) const {
     if constexpr (Moves)
@@ -58,6 +61,8 @@ struct WatchTiles {
     }
     move[tile] = most;
     finite[tile] = all;
+    if (apart)
+      apart[tile] = *std::max_element(t.apart, t.apart + t.lanes);
     if (!worn)
       return;
     worn[tile] = 0;
@@ -70,7 +75,7 @@ struct WatchTiles {
       least = least < t.J[k] || least != least ? least : t.J[k];
     J[tile] = least;
   }
-  double *move, *J, *finite, *worn;
+  double *move, *J, *finite, *worn, *apart;
 };
 
 /// Notices nothing.
@@ -78,6 +83,11 @@ struct WatchNothing {
   struct Seen {};
   RIVEN_INLINE void put(int, const Seen&) const {}
 };
+
+/// Whether particles' velocities are compared with the grid's in a step: now and then is enough.
+inline bool velocities_compared(long step) {
+  return step % 16 == 0;
+}
 
 /// Largest move and drift since the last sort; NaN if any particle's move is not finite. Books what the transfer took.
 template <class Real>
@@ -90,6 +100,11 @@ void watch_moves(State<Real, 2>& s) {
     worn += w.tile_worn[t];
   }
   s.ledger.energy.transfer += worn;
+  if (velocities_compared(s.clock.step)) {
+    w.velocity_difference = 0;
+    for (int t : s.particles.tiles.filled)
+      w.velocity_difference = std::max(w.velocity_difference, w.tile_apart[t]);
+  }
   w.largest_move = std::isfinite(sum) ? move : std::numeric_limits<double>::quiet_NaN();
   w.drift += w.largest_move;
 }

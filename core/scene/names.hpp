@@ -67,6 +67,12 @@ RIVEN_NAMES(Probe::Kind, {{Probe::Kind::crack_opening, "crack_opening"},
                           {Probe::Kind::travel, "travel"},
                           {Probe::Kind::mean_stress, "mean_stress"},
                           {Probe::Kind::displacement_error, "displacement_error"}})
+RIVEN_NAMES(Watched, {{Watched::energy, "energy"},
+                      {Watched::momentum, "momentum"},
+                      {Watched::compression, "compression"},
+                      {Watched::expansion, "expansion"},
+                      {Watched::penetration, "penetration"},
+                      {Watched::velocity_difference, "velocity_difference"}})
 RIVEN_NAMES(exec::Kind,
             {{exec::Kind::serial, "serial"}, {exec::Kind::openmp, "openmp"}, {exec::Kind::stdpar, "stdpar"}})
 #undef RIVEN_NAMES

@@ -1,6 +1,7 @@
 // What the user wrote, in SI units, checked for meaning but not yet planned. Plain data: io/ fills it,
 // core/plan turns it into tasks and arrays. No member depends on how it was written down.
 #pragma once
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -194,8 +195,26 @@ struct Output {
   int checkpoint_steps = 0;         ///< steps between checkpoints, too; 0: not by steps
 };
 
-/// Where a run has gone wrong, and what it does then.
+/// Figures by which a run is judged while it goes on, whenever stock is taken.
+enum class Watched {
+  energy,               ///< made or lost by nothing that accounts for it, over the largest energy so far
+  momentum,             ///< error of the momentum over the largest so far
+  compression,          ///< 1 / least det F
+  expansion,            ///< largest det F
+  penetration,          ///< overlap of faces, cells
+  velocity_difference,  ///< of a particle and the grid where it is, m/s
+};
+inline constexpr int watched_figures = 6;
+
+/// A limit for each; infinite where there is none.
+using Thresholds = std::array<double, watched_figures>;
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Where a run is suspect, where it has gone wrong, and what it does then.
 struct Limits {
+  Thresholds warn{0.02, 1e-9, 5, 5, 0.25, no_limit};
+  Thresholds stop{no_limit, no_limit, no_limit, no_limit, no_limit, no_limit};
+
   /// Largest (kinetic + strain + sinks - external work) over the largest energy so far; else as the plan says.
   std::optional<double> energy_growth;
   int retries = 0;         ///< how often the run goes back to its last checkpoint when it went wrong

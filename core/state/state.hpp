@@ -13,6 +13,7 @@
 #include "core/state/grid.hpp"
 #include "core/state/ledger.hpp"
 #include "core/state/loads.hpp"
+#include "core/state/monitors.hpp"
 #include "core/state/particles.hpp"
 #include "core/state/tips.hpp"
 
@@ -33,10 +34,12 @@ struct StepWatch {
   exec::Array<double> tile_J;       ///< [tiles] least det F
   exec::Array<double> tile_finite;  ///< [tiles] sum of |dx|: not finite if any particle's is not
   exec::Array<double> tile_worn;    ///< [tiles] J, taken by the transfer; of transfers that take some
+  exec::Array<double> tile_apart;   ///< [tiles] largest difference of a particle's velocity and the grid's, m/s
   double largest_move = 0;          ///< m, this step
   double least_J = 1;
-  double drift = 0;    ///< sum of largest_move since the particles were sorted, m
-  long sorted_at = 0;  ///< Clock::step at which they were
+  double velocity_difference = 0;  ///< m/s, along an axis, in the last step in which it was looked at
+  double drift = 0;                ///< sum of largest_move since the particles were sorted, m
+  long sorted_at = 0;              ///< Clock::step at which they were
 };
 
 struct Clock {
@@ -68,6 +71,7 @@ struct State {
   Constraints constraints;
   Loads loads;
   StepWatch watch;
+  Monitors monitors;
   Clock clock;
   Ledger ledger;
   double particle_mass = 0;  ///< the largest, kg

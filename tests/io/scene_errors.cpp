@@ -286,6 +286,10 @@ TEST(BadSceneParts, EachIsRefused) {
       {"[limits]\nretries = 0.5\n", "whole number", "whole number"},
       {"[limits]\nretries = 1\nretry_cfl = 1\n", "out of range", "less than 1"},
       {"[limits]\nretries = 1\nretry_cfl = 0\n", "out of range", "greater than 0"},
+      {"[limits.warn]\nenergi = 0.1\n", "unknown key 'energi'", "'energy'"},
+      {"[limits.stop]\npenetration = 0\n", "out of range", "greater than 0"},
+      {"[limits.warn]\nvelocity_difference = 3\n", "quantity of speed", "m/s"},
+      {"[limits.stop]\nexpansion = \"2\"\n", "found a text", "without unit"},
       {"[limits]\nretris = 1\n", "unknown key 'retris'", "'retries'"},
   };
   for (const Extra& e : extras) {

@@ -129,6 +129,11 @@ fringe_constant = "0.0889 1/MPa"
 energy_growth = 0.1
 retries = 3
 retry_cfl = 0.8
+[limits.warn]
+compression = 2
+velocity_difference = "5 mm/ms"
+[limits.stop]
+penetration = 0.5
 )toml");
   EXPECT_EQ(s.materials[1].law, LawKind::neo_hookean);
   const Body& b = s.bodies[1];
@@ -186,6 +191,8 @@ retry_cfl = 0.8
   EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
   EXPECT_DOUBLE_EQ(s.output.fringe_constant, 0.0889e-6);
   EXPECT_EQ(s.limits.energy_growth, 0.1);
+  EXPECT_EQ(s.limits.warn, (Thresholds{0.02, 1e-9, 2, 5, 0.25, 5}));
+  EXPECT_EQ(s.limits.stop, (Thresholds{no_limit, no_limit, no_limit, no_limit, 0.5, no_limit}));
   EXPECT_EQ(s.limits.retries, 3);
   EXPECT_EQ(s.limits.retry_cfl, 0.8);
   EXPECT_EQ(s.output.checkpoint_steps, 1000) << "to go back to";
