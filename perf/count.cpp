@@ -3,7 +3,9 @@
 #include <valgrind/callgrind.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <future>
 
 #include "core/error.hpp"
 #include "perf/callgrind.hpp"
@@ -45,25 +47,38 @@ fs::path counted_program() {
 }
 
 Costs count_instructions(const fs::path& program, const std::string& slowed) {
-  std::vector<std::string> command{program.string(), "step-for-callgrind"};
-  if (!slowed.empty())
-    command.insert(command.end(), {"--slow-down", slowed});
+  std::vector<Costs> of_scene(gate_scenes().size());
+  std::atomic<size_t> left = of_scene.size();  // the last ones take longest
+  const auto count_scenes = [&] {
+    for (size_t k; (k = --left) < of_scene.size();) {
+      std::vector<std::string> command{program.string(), "step-for-callgrind", std::to_string(k)};
+      if (!slowed.empty())
+        command.insert(command.end(), {"--slow-down", slowed});
+      run_callgrind({}, command, [&](const Dump& dump) { add(dump, of_scene[k]); });
+    }
+  };
+  std::vector<std::future<void>> workers;
+  workers.reserve(static_cast<size_t>(exec::available_threads()));
+  for (int t = 0; t < exec::available_threads(); ++t)
+    workers.push_back(std::async(std::launch::async, count_scenes));
+  for (std::future<void>& w : workers)
+    w.get();
   Costs costs;
-  run_callgrind({}, command, [&](const Dump& dump) { add(dump, costs); });
+  for (const Costs& one : of_scene)
+    costs.insert(costs.end(), one.begin(), one.end());
   return costs;
 }
 
-void step_for_callgrind(const std::string& slowed) {
-  for (const GateScene& scene : gate_scenes()) {
-    const std::unique_ptr<Runner> runner = make_runner(scene.counted, exec::Kind::serial, 1);
-    runner->run(scene.warm_up);
-    if (!slowed.empty())
-      runner->slow_down(slowed);
-    dump_tasks(*runner, counted_steps);
-    CALLGRIND_START_INSTRUMENTATION;
-    runner->run(counted_steps);
-    CALLGRIND_STOP_INSTRUMENTATION;
-  }
+void step_for_callgrind(size_t number, const std::string& slowed) {
+  const GateScene scene = gate_scenes().at(number);
+  const std::unique_ptr<Runner> runner = make_runner(scene.counted, exec::Kind::serial, 1);
+  runner->run(scene.warm_up);
+  if (!slowed.empty())
+    runner->slow_down(slowed);
+  dump_tasks(*runner, counted_steps);
+  CALLGRIND_START_INSTRUMENTATION;
+  runner->run(counted_steps);
+  CALLGRIND_STOP_INSTRUMENTATION;
 }
 
 }  // namespace riven::perf

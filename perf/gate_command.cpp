@@ -163,9 +163,11 @@ void add_gate(CLI::App& app) {
   command->callback([o] { gate(*o); });
 
   auto slowed = std::make_shared<std::string>();
+  auto number = std::make_shared<size_t>(0);
   CLI::App* stepping = app.add_subcommand("step-for-callgrind", "What gate runs under callgrind")->group("");
   stepping->add_option("--slow-down", *slowed);
-  stepping->callback([slowed] { step_for_callgrind(*slowed); });
+  stepping->add_option("scene", *number)->required();
+  stepping->callback([slowed, number] { step_for_callgrind(*number, *slowed); });
 }
 
 }  // namespace riven::perf
