@@ -28,11 +28,6 @@ template <class Real>
         Vec2{s.particles.x[0][i], s.particles.x[1][i]}});
 }
 
-template <class Real>
-double det_F(const Particles<Real, 2>& p, long i) {
-  return p.J.empty() ? p.F[0][i] * p.F[3][i] - p.F[1][i] * p.F[2][i] : p.J[i];
-}
-
 }  // namespace
 
 template <class Real>

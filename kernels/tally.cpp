@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/exec/parallel.hpp"
@@ -27,17 +28,25 @@ struct Sums {
   }
 };
 
+/// Of one chunk of particles.
+struct ChunkSums {
+  Sums sums;
+  double least_J, largest_J;
+};
+
 /// The same, lane by lane.
 struct LaneSums {
   static constexpr int lanes = exec::lanes;
   double kinetic[lanes] = {}, strain[lanes] = {}, px[lanes] = {}, py[lanes] = {}, angular[lanes] = {};
   double scale[lanes] = {}, angular_scale[lanes] = {};
+  double least_J[lanes], largest_J[lanes] = {};
 
-  Sums sum() const {
+  LaneSums() { std::fill_n(least_J, lanes, std::numeric_limits<double>::infinity()); }
+  ChunkSums sum() const {
     Sums t;
     for (int k = 0; k < lanes; ++k)
       t += {kinetic[k], strain[k], px[k], py[k], angular[k], scale[k], angular_scale[k]};
-    return t;
+    return {t, *std::min_element(least_J, least_J + lanes), *std::max_element(largest_J, largest_J + lanes)};
   }
 };
 
@@ -49,7 +58,11 @@ RIVEN_INLINE void add_up(const Particles<Real, 2>& p, const LawOf& law_of, long 
     const double m = p.mass[i], vx = p.v[0][i], vy = p.v[1][i], x = p.x[0][i], y = p.x[1][i];
     const double vv = vx * vx + vy * vy;
     t.kinetic[k] += 0.5 * m * vv;
-    t.strain[k] += m * law_of(i).energy(law_state<Law>(p, i));
+    const LawState<Real> state = law_state<Law>(p, i);
+    const double J = state.J;
+    t.strain[k] += m * law_of(i).energy(state);
+    t.least_J[k] = J < t.least_J[k] ? J : t.least_J[k];
+    t.largest_J[k] = J > t.largest_J[k] ? J : t.largest_J[k];
     t.px[k] += m * vx;
     t.py[k] += m * vy;
     t.angular[k] += m * (x * vy - y * vx);
@@ -59,9 +72,9 @@ RIVEN_INLINE void add_up(const Particles<Real, 2>& p, const LawOf& law_of, long 
 }
 
 template <class Law, class Real, class LawOf>
-Sums sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const LawOf& law_of) {
+std::vector<ChunkSums> sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const LawOf& law_of) {
   const long n = p.count(), chunks = (n + exec::chunk - 1) / exec::chunk;
-  std::vector<Sums> part(static_cast<size_t>(chunks));
+  std::vector<ChunkSums> part(static_cast<size_t>(chunks));
   exec::parallel_tasks(space, "tally", chunks, [&](long c) {
     LaneSums t;
     const long end = std::min(n, (c + 1) * exec::chunk);
@@ -69,9 +82,24 @@ Sums sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const 
       add_up<Law>(p, law_of, first, static_cast<int>(std::min<long>(exec::lanes, end - first)), t);
     part[static_cast<size_t>(c)] = t.sum();
   });
+  return part;
+}
+
+/// Adds up what chunks hold, in their order; of equal det F the first chunk's counts.
+Sums total_of(const std::vector<ChunkSums>& part, DetF& J) {
   Sums total;
-  for (const Sums& t : part)
-    total += t;
+  J = {};
+  for (size_t c = 0; c < part.size(); ++c) {
+    total += part[c].sums;
+    if (c == 0 || part[c].least_J < J.least) {
+      J.least = part[c].least_J;
+      J.least_chunk = static_cast<long>(c);
+    }
+    if (c == 0 || part[c].largest_J > J.largest) {
+      J.largest = part[c].largest_J;
+      J.largest_chunk = static_cast<long>(c);
+    }
+  }
   return total;
 }
 
@@ -80,13 +108,14 @@ Sums sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const 
 template <class Real>
 void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const auto& p = s.particles;
-  const Sums t = with_law<Real>(plan.law, [&](auto law) {
+  const std::vector<ChunkSums> part = with_law<Real>(plan.law, [&](auto law) {
     using Law = typename decltype(law)::type;
     const BodyLookup<Law> of = laws<Law>(s);
     if (of.single)
       return sum_particles<Law>(space, p, [law = of.table[0]](long) RIVEN_LANE { return law; });
     return sum_particles<Law>(space, p, [of](long i) RIVEN_LANE { return of.of(i); });
   });
+  const Sums t = total_of(part, s.watch.det_F);
   Energy& e = s.ledger.energy;
   Momentum& b = s.ledger.momentum;
   e.kinetic = t.kinetic;

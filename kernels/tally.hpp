@@ -6,7 +6,7 @@
 namespace riven {
 
 /// Brings the ledger's present values up to date: kinetic, strain and cohesive energy, momentum and angular momentum
-/// about the origin, and their scales.
+/// about the origin, and their scales. On the way, StepWatch::det_F.
 template <class Real>
 void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/exec/parallel.hpp"
@@ -16,68 +15,52 @@ namespace riven {
 
 namespace {
 
-struct Seen {
-  double value = 0;
+struct Overlap {
+  double depth = 0;  ///< m
   Vec2 place = nowhere;
 };
-
-/// Least and largest det F; of equal ones the particle that comes first.
-struct Extremes {
-  double least = std::numeric_limits<double>::infinity(), largest = 0;
-  long at_least = 0, at_largest = 0;
-
-  Extremes& operator+=(const Extremes& o) {
-    if (o.least < least) {
-      least = o.least;
-      at_least = o.at_least;
-    }
-    if (o.largest > largest) {
-      largest = o.largest;
-      at_largest = o.at_largest;
-    }
-    return *this;
-  }
-};
-
-template <class Real>
-Extremes extremes(const exec::Space& space, const Particles<Real, 2>& p) {
-  const bool by_J = !p.J.empty();
-  return exec::parallel_reduce<Extremes>(space, "least and largest det F", p.count(), [&](long i) {
-    const double J = by_J ? double(p.J[i]) : p.F[0][i] * p.F[3][i] - p.F[1][i] * p.F[2][i];
-    return Extremes{J, J, i, i};
-  });
-}
 
 template <class Real>
 Vec2 place_of(const Particles<Real, 2>& p, long i) {
   return {p.x[0][i], p.x[1][i]};
 }
 
+/// Where the particle of a chunk is whose det F comes nearest to this one.
+template <class Real>
+Vec2 place_of_det_F(const Particles<Real, 2>& p, long chunk, double value) {
+  const long first = chunk * exec::chunk, end = std::min<long>(p.count(), first + exec::chunk);
+  long nearest = first;
+  for (long i = first; i < end; ++i)
+    if (std::abs(det_F(p, i) - value) < std::abs(det_F(p, nearest) - value))
+      nearest = i;
+  return place_of(p, nearest);
+}
+
 /// The power of time with which the work of loads that begin as 1 - cos grows at first: their force as the square, the
 /// way as the fourth. It lags behind the energy by so many times what that of a load at once does.
 constexpr double power_of_work = 6;
 
-/// Largest overlap of faces that contact keeps apart, m.
-Seen penetration(const Cracks& cracks) {
-  Seen most;
+/// The largest of faces that contact keeps apart.
+Overlap penetration(const Cracks& cracks) {
+  Overlap most;
   for (int i = 0; i < cracks.points(); ++i) {
     if (cracks.contact[static_cast<size_t>(cracks.crack[i])].law == ContactLaw::ignored)
       continue;
     const double overlap = -face_opening(cracks, i).normal;
-    if (overlap > most.value)
+    if (overlap > most.depth)
       most = {overlap, cracks.plane[i]};
   }
   return most;
 }
 
 template <class Real>
-[[noreturn]] void stop(const SimulationOf<Real>& m, Watched which, const Seen& seen, double limit) {
+[[noreturn]] void stop(const SimulationOf<Real>& m, Watched which, double value, Vec2 place, double limit) {
   const WatchedText& text = text_of(which);
   const Clock& c = m.state.clock;
   fail({Exit::unstable, text.what,
-        fmt::format("step {}, time {:.6g} s at ({:.6g}, {:.6g}) m", c.step, c.time, seen.place.x, seen.place.y),
-        fmt::format("{:.4g}{}{}", seen.value, *text.unit ? " " : "", text.unit),
-        fmt::format("{:.4g} (limits.stop.{})", limit, name_of(which)), text.advice, seen.place});
+        fmt::format("step {}, time {:.6g} s at ({:.6g}, {:.6g}) m", c.step, c.time, place.x, place.y),
+        fmt::format("{:.4g}{}{}", value, *text.unit ? " " : "", text.unit),
+        fmt::format("{:.4g} (limits.stop.{})", limit, name_of(which)), text.advice, place});
 }
 
 }  // namespace
@@ -85,36 +68,38 @@ template <class Real>
 template <class Real>
 void watch_figures(SimulationOf<Real>& m) {
   auto& s = m.state;
-  const auto look = [&](Watched which, Seen seen, double allowance = 0) {
+  const auto no_place = [] { return nowhere; };
+  const auto look = [&](Watched which, double value, const auto& place_of_it, double allowance = 0) {
     const auto k = static_cast<size_t>(which);
     const double warn_at = m.scene.limits.warn[k] + allowance, stop_at = m.scene.limits.stop[k] + allowance;
     Monitor& now = s.monitors[k];
-    now.value = seen.value;
-    if (!(seen.value <= now.worst)) {
-      now.worst = seen.value;
-      now.place = seen.place;
+    now.value = value;
+    if (!(value <= now.worst)) {
+      now.worst = value;
+      now.place = place_of_it();
     }
-    if (seen.value <= std::min(warn_at, stop_at))
+    if (value <= std::min(warn_at, stop_at))
       return;
-    if (std::isnan(seen.place.x))
-      seen.place = place_of(s.particles, fastest_particle(s.particles));
-    if (!(seen.value <= warn_at) && now.beyond++ == 0) {
+    Vec2 place = place_of_it();
+    if (std::isnan(place.x))
+      place = place_of(s.particles, fastest_particle(s.particles));
+    if (!(value <= warn_at) && now.beyond++ == 0) {
       now.first = s.clock.step;
-      now.first_place = seen.place;
+      now.first_place = place;
     }
-    if (!(seen.value <= stop_at))
-      stop(m, which, seen, stop_at);
+    if (!(value <= stop_at))
+      stop(m, which, value, place, stop_at);
   };
-  look(Watched::energy, {std::abs(s.ledger.energy.relative_error())}, power_of_work * work_lag(m.plan, s.clock.step));
-  look(Watched::momentum, {s.ledger.momentum.error()});
-  const Extremes J = extremes(m.space, s.particles);
-  look(Watched::compression, {1 / J.least, place_of(s.particles, J.at_least)});
-  look(Watched::expansion, {J.largest, place_of(s.particles, J.at_largest)});
-  look(Watched::velocity_difference, {s.watch.velocity_difference});
+  look(Watched::energy, std::abs(s.ledger.energy.relative_error()), no_place,
+       power_of_work * work_lag(m.plan, s.clock.step));
+  look(Watched::momentum, s.ledger.momentum.error(), no_place);
+  const DetF& J = s.watch.det_F;
+  look(Watched::compression, 1 / J.least, [&] { return place_of_det_F(s.particles, J.least_chunk, J.least); });
+  look(Watched::expansion, J.largest, [&] { return place_of_det_F(s.particles, J.largest_chunk, J.largest); });
+  look(Watched::velocity_difference, s.watch.velocity_difference, no_place);
   if (m.plan.contact) {
-    Seen most = penetration(s.cracks);
-    most.value /= s.grid.lattice.h;
-    look(Watched::penetration, most);
+    const Overlap most = penetration(s.cracks);
+    look(Watched::penetration, most.depth / s.grid.lattice.h, [&] { return most.place; });
   }
 }
 

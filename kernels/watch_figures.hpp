@@ -1,5 +1,5 @@
-// The figures by which a run is judged (Watched in scene.hpp), found whenever stock is taken: a pass over det F, one
-// over the points of cracks, and what the ledger and the steps have noticed anyway.
+// The figures by which a run is judged (Watched in scene.hpp), found whenever stock is taken: a pass over the points of
+// cracks, and what tally() and the steps have noticed on their way.
 #pragma once
 #include "kernels/simulation.hpp"
 

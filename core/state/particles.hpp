@@ -67,4 +67,9 @@ struct Particles {
   }
 };
 
+template <class Real>
+double det_F(const Particles<Real, 2>& p, long i) {
+  return p.J.empty() ? p.F[0][i] * p.F[3][i] - p.F[1][i] * p.F[2][i] : p.J[i];
+}
+
 }  // namespace riven

@@ -28,6 +28,12 @@ struct LawTables {
   exec::Array<AnyElastic<Real>> any;
 };
 
+/// Least and largest det F when stock was taken last, and the chunks of particles (exec::chunk) that hold them.
+struct DetF {
+  double least = 1, largest = 1;
+  long least_chunk = 0, largest_chunk = 0;
+};
+
 /// What the particle kernels saw in the last step, per tile and in all.
 struct StepWatch {
   exec::Array<double> tile_move;    ///< [tiles] largest |dx| of a particle along an axis, m
@@ -37,6 +43,7 @@ struct StepWatch {
   exec::Array<double> tile_apart;   ///< [tiles] largest difference of a particle's velocity and the grid's, m/s
   double largest_move = 0;          ///< m, this step
   double least_J = 1;
+  DetF det_F;
   double velocity_difference = 0;  ///< m/s, along an axis, in the last step in which it was looked at
   double drift = 0;                ///< sum of largest_move since the particles were sorted, m
   long sorted_at = 0;              ///< Clock::step at which they were

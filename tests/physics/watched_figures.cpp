@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "kernels/tally.hpp"
 #include "kernels/watch_figures.hpp"
 #include "tests/physics/scenes.hpp"
 
@@ -48,6 +49,7 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     c.upper[1].y -= 0.1 * h;  // of the crack that contact keeps shut: above has come below
     c.upper[2].y += 0.4 * h;  // open
     c.upper[c.start[1] + 1].y -= 0.7 * h;
+    tally(space, m.plan, m.state);
     m.state.watch.velocity_difference = 3;
     m.state.ledger.momentum.impulse.x = 7;
     m.state.ledger.momentum.scale = 70;
@@ -77,6 +79,7 @@ TEST(WatchedFigures, RememberTheWorstAndTheFirstThatWasBeyond) {
     m.state.particles.J[50 + n] = values[n];
     if (n > 0)
       m.state.particles.J[49 + n] = 1;
+    tally(space, m.plan, m.state);
     watch_figures(m);
     EXPECT_EQ(figure(m, Watched::expansion).value, values[n]);
   }
