@@ -46,8 +46,8 @@ fs::path counted_program() {
   return RIVEN_COUNTED_PROGRAM;
 }
 
-Costs count_instructions(const fs::path& program, const std::string& slowed) {
-  std::vector<Costs> of_scene(gate_scenes().size());
+Costs count_instructions(const fs::path& program, size_t scenes, const std::string& slowed) {
+  std::vector<Costs> of_scene(std::min(scenes, gate_scenes().size()));
   std::atomic<size_t> left = of_scene.size();  // the last ones take longest
   const auto count_scenes = [&] {
     for (size_t k; (k = --left) < of_scene.size();) {
