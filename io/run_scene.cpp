@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 
 #include "core/error.hpp"
@@ -48,6 +49,8 @@ class Run {
         so_far_(take_up(m, options)),
         checkpoints_(options.folder, m.scene.output, options.restart),
         stop_(options.wall_limit) {
+    for (std::size_t k = 0; k < said_.size(); ++k)
+      said_[k] = m.state.monitors[k].beyond > 0;
     open_results();
   }
 
@@ -167,13 +170,15 @@ class Run {
     bool any = false;
     for (const auto& [which, name] : Names<Watched>::table) {
       const Monitor& w = monitor(m_.state.monitors, which);
-      if (w.first != m_.state.clock.step)
+      bool& said = said_[static_cast<std::size_t>(which)];
+      const bool news = w.beyond > 0 && !said;
+      said = w.beyond > 0;
+      if (!news)
         continue;
       any = true;
       const WatchedText& text = text_of(which);
-      fmt::print(stderr, "riven: warning: step {}, time {}, at ({:.4g}, {:.4g}) m: {}: {:.3g}{}{}\n", w.first,
-                 format_time(m_.state.clock.time), w.first_place.x, w.first_place.y, text.what, w.value,
-                 *text.unit ? " " : "", text.unit);
+      fmt::print(stderr, "riven: warning: step {}, at ({:.4g}, {:.4g}) m: {}: {:.3g}{}{}\n", w.first, w.first_place.x,
+                 w.first_place.y, text.what, w.worst, *text.unit ? " " : "", text.unit);
       fmt::print(stderr, "  limit: {:.3g} (limits.warn.{})\n  try:   {}\n",
                  m_.scene.limits.warn[static_cast<size_t>(which)], name, text.advice);
     }
@@ -251,6 +256,7 @@ class Run {
   std::optional<EventLog> events_;
   std::optional<Progress> progress_;
   StopRequest stop_;
+  std::array<bool, watched_figures> said_{};  ///< which figures have been beyond their warning limits
   double start_ = exec::Stopwatch::now();
   enum : size_t { monitors, history, frames, checkpoints };
   std::vector<Summary::Task> between_{

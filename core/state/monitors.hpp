@@ -35,7 +35,8 @@ struct WatchedText {
 inline constexpr WatchedText watched_texts[watched_figures] = {
     {"energy comes or goes, and nothing accounts for it", "of the largest energy",
      "a smaller solver.cfl; solver.stress_update = \"usavg\""},
-    {"momentum comes or goes", "of the largest momentum", "a bounded [grid] with room for all bodies"},
+    {"momentum comes or goes", "of the largest momentum",
+     "nothing in a scene should do this: report it, with the scene"},
     {"a particle is compressed far (1 / det F)", "",
      "smaller cells or a smaller solver.cfl; law = \"neo_hookean\" for large strains"},
     {"a particle is stretched far (det F)", "", "growth or a crack where the body tears; smaller cells"},

@@ -81,6 +81,16 @@ TEST(WatchedRun, WarnsOnceAndKeepsTheStateToGoOnFrom) {
   EXPECT_EQ(j["watched"], r.summary["watched"]);
 }
 
+/// Beyond a CFL number of 1 stock is taken in every step: what is first seen between two rows is said with the next.
+TEST(WatchedRun, SaysWhatWasSeenBetweenRows) {
+  const sample::Folder folder;
+  const Ran r({"body.0.spin=20000 rad/s", "output.history_every=5 us", "limits.warn.expansion=1.00001",
+               "solver.cfl=1.01", "limits.energy_growth=1e9"},
+              folder / "out");
+  EXPECT_EQ(r.code, Exit::done) << r.message;
+  EXPECT_EQ(count(r.said, "(limits.warn.expansion)"), 1u) << r.said;
+}
+
 TEST(WatchedRun, StopsWithTheStateBeforeKept) {
   const sample::Folder folder;
   const Ran r(with(spinning, {"limits.warn.expansion=1.0005", "limits.stop.expansion=1.002"}), folder / "out");
