@@ -1,7 +1,11 @@
 // Tips anywhere in a cell, and tips that move.
+#include <gtest/gtest.h>
+
 #include <map>
+#include <numbers>
 
 #include "tests/physics/plates.hpp"
+#include "tests/physics/strip.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -81,34 +85,14 @@ TEST(TipOnTheGrid, DISABLED_MayBeAnywhereInAHalfMillimetreCell) {
         spread_over_nine_places(0.5 * mm, J_of_moved_tip), 0.04);
 }
 
-/// A strip of 60 x 24 mm between clamps that stretch it and then hold it, brought to rest until `held`. A crack creeps
-/// along its middle: J = E eps^2 H / (1 - nu^2) wherever the tip is (Rice, J. Appl. Mech. 35 (1968) 379-386).
+/// The clamps stretch the strip and then hold it, brought to rest until `held`, s; the crack creeps at `speed`, m/s.
 Scene creeping_crack(double held, double speed) {
-  constexpr double H = 12 * mm;
-  Scene s = empty_scene(mm, {{-4 * mm, -18 * mm}, {64 * mm, 18 * mm}});
-  s.plane = Plane::stress;
-  s.thickness = mm;
-  s.materials = {{"strip", LawKind::linear_elastic, 2.5e9, 0.33, 1000}};
-  s.transfer = Transfer::fmpm;
-  s.order = 1;
-  s.bodies = {body("strip", Rectangle{{0, -H}, {60 * mm, H}})};
-  s.cracks = {crack("middle", {{-mm, 0}, {20 * mm, 0}})};
-  s.growth = GrowthRule{};
-  s.growth->criterion = GrowthCriterion::critical_j;
-  s.growth->toughness = 400;
+  const auto pull = [](double t) { return t < 0.1e-3 ? 1 - std::cos(2e4 * std::numbers::pi * t) : 0; };
+  Scene s = Strip::scene(20 * mm, 400, {0.6, pull, ""});
   s.end_time = 2e-3;
   s.growth->speed_limit = speed;
   s.fracture.contour = 8;
   s.grid_damping = TimeFunction{4e4, [held](double t) { return t < held ? 1. : 0.; }, ""};
-  for (const double sign : {-1., 1.}) {
-    Grip g;
-    g.name = sign < 0 ? "low" : "high";
-    g.region = sign < 0 ? Rectangle{{0, -H - mm}, {60 * mm, -H}} : Rectangle{{0, H}, {60 * mm, H + mm}};
-    g.velocity[0] = constant(0);
-    g.velocity[1] = {sign * 0.6, [](double t) { return t < 0.1e-3 ? 1 - std::cos(2e4 * 3.14159265358979 * t) : 0; },
-                     ""};
-    s.grips.push_back(g);
-  }
   return s;
 }
 
@@ -126,7 +110,7 @@ TEST(MovingTip, KeepsItsJAndLeavesFacesWithoutTraction) {
     run(m, account, 1, 20);
     for (int i = 0; i < p.count(); ++i)
       if (std::abs(p.x0[1][i]) < 0.5 * mm)
-        borne[p.id[i]] = std::max(borne[p.id[i]], 1000 * p.stress[1][i]);
+        borne[p.id[i]] = std::max(borne[p.id[i]], Strip::density * p.stress[1][i]);
     const Tip& tip = m.state.tips[0];
     if (tip.length > length) {
       const Vec2 at = m.state.cracks.plane[m.state.cracks.end_point(0, true)];
@@ -141,13 +125,12 @@ TEST(MovingTip, KeepsItsJAndLeavesFacesWithoutTraction) {
   double jump = 0;
   for (size_t k = 1; k < J.size(); ++k)
     jump = std::max(jump, std::abs(J[k] / J[k - 1] - 1));
-  const double strain = m.state.constraints.owners[1].travel.y / (12 * mm);
-  const double ahead = 2.5e9 * strain / (1 - 0.33 * 0.33);
+  const double ahead = Strip::stress_ahead(Strip::strain(m));
   double over_ahead = 0, over_borne = 0, squares = 0;
   int behind = 0;
   for (int i = 0; i < p.count(); ++i)
     if (std::abs(p.x0[1][i]) < 0.5 * mm && p.x0[0][i] > 8 * mm && p.x0[0][i] < front - 8 * mm) {
-      const double left = std::abs(1000 * p.stress[1][i]);
+      const double left = std::abs(Strip::density * p.stress[1][i]);
       over_ahead = std::max(over_ahead, left / ahead);
       squares += std::pow(left / ahead, 2);
       ++behind;
