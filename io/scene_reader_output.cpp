@@ -83,7 +83,7 @@ void read_output(const Table& root, Scene& s) {
       "output", {"frames", "history_every", "sidecar", "fields", "fringe_constant", "checkpoint", "checkpoint_steps"});
   s.output.frames = t.integer("frames", 0, most_frames, s.output.frames);
   s.output.history_every =
-      t.quantity("history_every", dimension::time, range::positive, s.output.history_every, "1/500 of solver.time");
+      t.quantity("history_every", dimension::time, range::positive, s.output.history_every, "1/250 of solver.time");
   s.output.checkpoint_every =
       t.quantity("checkpoint", dimension::time, range::non_negative, s.output.checkpoint_every, "10 min");
   s.output.checkpoint_steps =

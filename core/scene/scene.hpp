@@ -187,7 +187,7 @@ struct Probe {
 
 struct Output {
   int frames = 20;           ///< frames after the first, evenly over the run
-  double history_every = 0;  ///< s; 0 means 1/500 of the run
+  double history_every = 0;  ///< s; 0 means 1/250 of the run
   Sidecar sidecar = Sidecar::none;
   std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
   double fringe_constant = 0;       ///< 1/Pa (Nairn 2003, eq. 23)

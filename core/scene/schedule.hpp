@@ -8,7 +8,7 @@ namespace riven {
 
 /// Time between two rows, s.
 inline double row_interval(const Scene& scene) {
-  return scene.output.history_every > 0 ? scene.output.history_every : scene.end_time / 500;
+  return scene.output.history_every > 0 ? scene.output.history_every : scene.end_time / 250;
 }
 
 /// Is a row due at the end of a step that goes from one time to the other?
