@@ -37,7 +37,7 @@ struct Strip {
   /// Across the strip, where it is ahead of the tip, Pa.
   static double stress_ahead(double strain) { return E * strain / (1 - nu * nu); }
 
-private:
+ private:
   static void clamp(Scene& s, const char* name, const Rectangle& region, double sign, TimeFunction speed) {
     Grip g;
     g.name = name;
