@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/exec/parallel.hpp"
@@ -15,12 +16,24 @@ namespace {
 constexpr long points_of_task = 32, ahead = 4;
 
 /// Points whose surfaces are fitted together.
-constexpr long points_of_fit = SurfaceSumLanes::lanes / 2;
+constexpr long points_of_fit = MotionLanes::lanes / 2;
+static_assert(points_of_task % points_of_fit == 0);
 
-/// What the grid says of a crack point; mass 0 where that is nothing.
+/// What the grid says of crack points; mass 0 where that is nothing.
 struct Found {
-  PointMotion surface[2];  ///< upper and lower
-  PointMotion all;         ///< of all fields (motion with the centre of mass)
+  std::unique_ptr<MotionLanes[]> surfaces;
+  std::vector<PointMotion> all;  ///< [points] of all fields (motion with the centre of mass), or empty
+
+  Found(long points, CrackMotion motion)
+      : surfaces(std::make_unique_for_overwrite<MotionLanes[]>(
+            static_cast<size_t>((points + points_of_fit - 1) / points_of_fit))),
+        all(motion == CrackMotion::center_of_mass ? static_cast<size_t>(points) : 0) {}
+
+  /// Of the upper (0) or the lower surface of point k.
+  PointMotion surface(long k, int side) const {
+    return surfaces[static_cast<size_t>(k / points_of_fit)].motion(static_cast<int>(2 * (k % points_of_fit)) + side);
+  }
+  PointMotion of_all(long k) const { return all.empty() ? PointMotion{} : all[static_cast<size_t>(k)]; }
 };
 
 /// How far a crack point moves in this step.
@@ -43,21 +56,19 @@ Vec2 surface_move(const PointMotion& m, SurfaceUpdate update, double dt, bool ve
   return (m.before + 0.5 * (after - last)) * dt;
 }
 
-/// Drops what comes from nodes that the body barely reaches, those of a crack's points that lie outside of it: their
-/// accelerations f/m have no bound. Of a crack beside a body all are: `least` says so.
-void drop_light(Found* first, Found* last, double least) {
+/// A motion of less mass comes from nodes that the body barely reaches, as those around a crack's points that lie
+/// outside of it: their accelerations f/m have no bound. Of a crack beside a body all are: `least` says so.
+double sound_mass(const Found& found, long first, long last, double least) {
   double most = 5 * least;
-  for (const Found* f = first; f != last; ++f)
-    most = std::max({most, f->surface[0].mass, f->surface[1].mass});
-  for (Found* f = first; f != last; ++f)
-    for (PointMotion* m : {&f->surface[0], &f->surface[1], &f->all})
-      if (m->mass < 0.2 * most)
-        *m = {};
+  for (long k = first; k < last; ++k)
+    most = std::max({most, found.surface(k, 0).mass, found.surface(k, 1).mass});
+  return 0.2 * most;
 }
 
-/// The moves of point k by what was found for it.
-Moves moves_of(const Found& found, CrackRules rules, double dt, long k, Cracks& cracks) {
-  const PointMotion &up = found.surface[0], &low = found.surface[1], &all = found.all;
+/// The moves of point k by what was found for it with no less mass than is sound.
+Moves moves_of(const Found& found, double sound, CrackRules rules, double dt, long k, Cracks& cracks) {
+  const auto kept = [sound](const PointMotion& m) { return m.mass < sound ? PointMotion{} : m; };
+  const PointMotion up = kept(found.surface(k, 0)), low = kept(found.surface(k, 1)), all = kept(found.of_all(k));
   const bool has_up = up.mass > 0, has_low = low.mass > 0, xpic = rules.update == SurfaceUpdate::xpic;
   Vec2* const up_velocity = xpic ? &cracks.upper_velocity[k] : nullptr;
   Vec2* const low_velocity = xpic ? &cracks.lower_velocity[k] : nullptr;
@@ -116,7 +127,8 @@ void close_tip(Moves& m, long k, Cracks& cracks) {
 
 /// Looks up the surfaces of points [first, end), as many as are fitted together.
 template <class Shape, class Real>
-void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks, long first, long end, Found* found) {
+void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks, long first, long end,
+                   MotionLanes& found) {
   SurfaceSumLanes lanes;
   const long last = cracks.points() - 1;
   for (long k = first; k < end; ++k) {
@@ -127,19 +139,16 @@ void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks,
       lanes.put(2 * static_cast<int>(k - first) + side, sums);
     });
   }
-  lanes.fit(from.grid.lattice.h);
-  for (long k = first; k < end; ++k)
-    for (int side = 0; side < 2; ++side)
-      found[k].surface[side] = lanes.motion(2 * static_cast<int>(k - first) + side);
+  lanes.fit(from.grid.lattice.h, found);
 }
 
 /// Moves the points of one crack by what was found for them.
-void move_crack(const CrackRules& rules, double dt, int crack, Found* found, Cracks& cracks) {
+void move_crack(const CrackRules& rules, double dt, int crack, const Found& found, Cracks& cracks) {
   const long first = cracks.end_point(crack, false), last = cracks.end_point(crack, true) + 1;
-  drop_light(found + first, found + last, rules.least_mass);
+  const double sound = sound_mass(found, first, last, rules.least_mass);
   std::vector<Moves> moves(static_cast<size_t>(last - first));
   for (long k = first; k < last; ++k)
-    moves[static_cast<size_t>(k - first)] = moves_of(found[k], rules, dt, k, cracks);
+    moves[static_cast<size_t>(k - first)] = moves_of(found, sound, rules, dt, k, cracks);
   for (long k = first; k < last; ++k) {
     Moves& own = moves[static_cast<size_t>(k - first)];
     if (own.known)
@@ -170,17 +179,17 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
                                         .inv_h = 1 / grid.lattice.h,
                                         .dt = dt};
   const long points = cracks.points();
-  std::vector<Found> found(static_cast<size_t>(points));
+  Found found(points, rules.motion);
   exec::parallel_tasks(space, "move cracks", (points + points_of_task - 1) / points_of_task, [&](long task) {
     const long end = std::min(points, (task + 1) * points_of_task);
     for (long first = task * points_of_task; first < end; first += points_of_fit)
-      find_surfaces(from, cracks, first, std::min(end, first + points_of_fit), found.data());
-    if (rules.motion == CrackMotion::center_of_mass)
-      for (long k = task * points_of_task; k < end; ++k)
-        found[static_cast<size_t>(k)].all = from.of_all_fields(cracks.plane[k]);
+      find_surfaces(from, cracks, first, std::min(end, first + points_of_fit),
+                    found.surfaces[static_cast<size_t>(first / points_of_fit)]);
+    for (long k = task * points_of_task; !found.all.empty() && k < end; ++k)
+      found.all[static_cast<size_t>(k)] = from.of_all_fields(cracks.plane[k]);
   });
   exec::parallel_tasks(space, "move cracks", cracks.count(),
-                       [&](long c) { move_crack(rules, dt, static_cast<int>(c), found.data(), cracks); });
+                       [&](long c) { move_crack(rules, dt, static_cast<int>(c), found, cracks); });
   cracks.velocities_known = true;
 }
 

@@ -176,9 +176,20 @@ RIVEN_INLINE PointMotion fit_motion(SurfaceSums s, double h) {
           kept(L.spin)};
 }
 
-/// The sums of several surfaces, side by side; those of a point follow each other.
+/// The motions of several surfaces, side by side; those of a point follow each other.
+struct alignas(64) MotionLanes {
+  static constexpr int lanes = 16, numbers = 6;
+  double value[numbers][lanes];
+
+  PointMotion motion(int lane) const {
+    const auto at = [&](int n) { return value[n][lane]; };
+    return {at(0), {at(1), at(2)}, {at(3), at(4)}, at(5)};
+  }
+};
+
+/// Their sums.
 struct alignas(64) SurfaceSumLanes {
-  static constexpr int lanes = 16;
+  static constexpr int lanes = MotionLanes::lanes;
   static constexpr int numbers = sizeof(SurfaceSums) / sizeof(double);
   double value[numbers][lanes] = {};
 
@@ -189,8 +200,8 @@ struct alignas(64) SurfaceSumLanes {
       value[n][lane] = number[n];
   }
 
-  /// Makes them motions, to be had one by one; zeros where nothing was put.
-  void fit(double h) {
+  /// The motions that fit them; zeros where nothing was put.
+  void fit(double h, MotionLanes& to) const {
 #pragma omp simd
     for (int k = 0; k < lanes; ++k) {
       const auto at = [&, k](int n) RIVEN_LANE { return value[n][k]; };
@@ -198,17 +209,13 @@ struct alignas(64) SurfaceSumLanes {
       const PointMotion m = fit_motion({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), pair(9),
                                         pair(11), pair(13), pair(15), pair(17)},
                                        h);
-      value[0][k] = m.mass;
-      value[1][k] = m.before.x;
-      value[2][k] = m.before.y;
-      value[3][k] = m.acceleration.x;
-      value[4][k] = m.acceleration.y;
-      value[5][k] = m.spin;
+      to.value[0][k] = m.mass;
+      to.value[1][k] = m.before.x;
+      to.value[2][k] = m.before.y;
+      to.value[3][k] = m.acceleration.x;
+      to.value[4][k] = m.acceleration.y;
+      to.value[5][k] = m.spin;
     }
-  }
-  PointMotion motion(int lane) const {
-    const auto at = [&](int n) { return value[n][lane]; };
-    return {at(0), {at(1), at(2)}, {at(3), at(4)}, at(5)};
   }
 };
 
