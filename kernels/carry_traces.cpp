@@ -131,6 +131,7 @@ class Carrier {
     f_.recount[n] = former < 0;
     f_.clearance[n] = NodeClearance{};
     f_.clearance[n].travel = -std::numeric_limits<double>::max();  // to be measured
+    f_.follow_at[n] = -1;
     if (former < 0)
       return;
     for (int k = 0; k < most_held; ++k) {
@@ -153,6 +154,7 @@ class Carrier {
       return;
     }
     f_.clearance[n] = was_.clearance[former];
+    f_.follow_at[n] = was_.follow_at[former];
     if (int& near = f_.clearance[n].near; near >= 0)
       near = map_.now_of[near];
   }

@@ -38,4 +38,9 @@ RIVEN_INLINE bool on_line(const NodeClearance& c) {
   return c.sides % 3 == 1 || (c.joined && c.sides / 3 % 3 == 1);
 }
 
+/// How far a node is from the segments once the cracks have moved on, m, at least.
+RIVEN_INLINE double distance_left(const NodeClearance& c, double travel) {
+  return std::max(0., c.measured - (travel - c.travel));
+}
+
 }  // namespace riven

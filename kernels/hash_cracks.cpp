@@ -204,6 +204,7 @@ void list_segments(const exec::Space& space, const Lattice& lattice, const Crack
   fields.held.zero();
   fields.recount.resize(fields.nodes.size());
   fields.clearance.resize(fields.nodes.size());
+  fields.follow_at.resize(fields.nodes.size());
   fields.serial = cracks.serial;
   fields.kind.resize(cracks.points());
   for (PointKind& kind : fields.kind)

@@ -98,15 +98,19 @@ void measure_node(const Lattice& lattice, const Cracks& cracks, const CrackField
   c.joined = joined;
 }
 
-/// Keeps the distance of a node from the cracks below the true one, and measures it again once they have moved by a
-/// good part of it. Returns whether the node has come to another side of a segment that it is next to, or next to
-/// another.
+/// `travel` of the cracks after which a node is measured again: they have moved by a good part of its distance.
+double measured_until(const Lattice& lattice, const NodeClearance& c) {
+  return c.travel + std::max(0.25 * c.measured, 0.1 * near_cells * lattice.h);
+}
+
+/// Measures the distance of a node from the cracks again where that is due, and sees on which sides of a segment it is
+/// that it is next to. Returns whether it has come to another side, or next to another segment.
 bool follow_node(const Lattice& lattice, const Cracks& cracks, CrackFields& fields, long f, bool afresh) {
   NodeClearance& c = fields.clearance[f];
   const NodeClearance before = c;
-  if (afresh || fields.travel - c.travel > std::max(0.25 * c.measured, 0.1 * near_cells * lattice.h))
+  if (afresh || fields.travel > measured_until(lattice, c))
     measure_node(lattice, cracks, fields, f, c);
-  c.now = std::max(0., c.measured - (fields.travel - c.travel));
+  fields.follow_at[f] = c.near >= 0 ? -1 : measured_until(lattice, c);
   if (c.near >= 0) {
     const Vec2* at = fields.traced.data() + c.near;
     const Vec2 x = lattice.position(fields.nodes[f].node);
@@ -136,7 +140,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
   exec::launch(space, (fields.nodes.size() + exec::chunk - 1) / exec::chunk, [&](long c) {
     const long end = std::min(fields.nodes.size(), (c + 1) * exec::chunk);
     for (long f = c * exec::chunk; f < end; ++f)
-      if (follow_node(lattice, cracks, fields, f, afresh))
+      if ((afresh || fields.travel > fields.follow_at[f]) && follow_node(lattice, cracks, fields, f, afresh))
         turn_node(lattice, fields.nodes[f].node, fields);
   });
   const bool shared = space.threads() > 1;

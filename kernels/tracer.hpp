@@ -287,7 +287,8 @@ class Tracer {
       if (f < 0)
         continue;
       const NodeClearance& c = fields_.clearance[f];
-      clear2_ = std::min(clear2_, c.now * c.now);
+      const double left = distance_left(c, fields_.travel);
+      clear2_ = std::min(clear2_, left * left);
       if (c.near >= 0 && on_line(c))
         for (int s = c.near; s <= c.near + c.joined; ++s) {
           const double clear = line_clearance(paths.particle, fields_.traced[s], fields_.traced[s + 1]);

@@ -75,7 +75,6 @@ struct CrossingMemory {
 struct NodeClearance {
   double measured = 0;  ///< m
   double travel = 0;    ///< CrackFields::travel of that time
-  double now = 0;       ///< m, at least
   int near = -1;        ///< the segment that the node is all but on, or -1
   int joined = 0;       ///< 1 if that goes for the next segment, too
   int sides = 0;        ///< see follow_node
@@ -122,6 +121,7 @@ struct CrackLists {
 
   exec::Array<Vec2> traced;  ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
   exec::Array<NodeClearance> clearance;  ///< [flagged]
+  exec::Array<double> follow_at;         ///< [flagged] m, `travel` up to which there is nothing new to know of the node
   exec::Array<TileTrace> tiles;          ///< [marked tiles]
   exec::Array<int> tally;                ///< [2 candidates] crossings from above and from below
   exec::Array<std::uint8_t> verdict;     ///< [2 candidates] field, or CrossingVerdict, of a crossing of this entry

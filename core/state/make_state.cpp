@@ -220,8 +220,8 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("cracks: crossings", f.records, f.limit, f.block_limit, f.tiles);
   add("cracks: cells and nodes", f.cell_index, f.cells, f.cell_start, f.cell_segment, f.tile_marked, f.marked_tiles,
       f.tile_crack_start, f.tile_crack, f.node_index, f.extra, f.nodes, f.normals, f.third_normals, f.held,
-      f.candidate_start, f.candidate, f.segment_start, f.node_segment, f.clearance, f.turned, f.tally, f.recount,
-      f.verdict);
+      f.candidate_start, f.candidate, f.segment_start, f.node_segment, f.clearance, f.follow_at, f.turned, f.tally,
+      f.recount, f.verdict);
   return list;
 }
 
