@@ -176,7 +176,8 @@ void add_gate(CLI::App& app) {
                    "Passes over the particles once more in this task: shows that it is caught")
       ->excludes(reason);
   command->add_option("--first", o->first, "Only so many of the scenes: the first three, without cracks, take least")
-      ->check(CLI::Range(1, 100));
+      ->check(CLI::Range(1, 100))
+      ->excludes(reason);
   command->callback([o] { gate(*o); });
 
   auto slowed = std::make_shared<std::string>();
