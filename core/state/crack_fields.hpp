@@ -121,7 +121,7 @@ struct CrackLists {
 
   exec::Array<Vec2> traced;  ///< [points] crack points at the last trace, as paths see them (crack_path.hpp)
   exec::Array<NodeClearance> clearance;  ///< [flagged]
-  exec::Array<double> follow_at;         ///< [flagged] m, `travel` up to which there is nothing new to know of the node
+  exec::Array<double> follow_at;         ///< [flagged] m, `travel` up to which nodes are left alone, or -1: in no step
   exec::Array<TileTrace> tiles;          ///< [marked tiles]
   exec::Array<int> tally;                ///< [2 candidates] crossings from above and from below
   exec::Array<std::uint8_t> verdict;     ///< [2 candidates] field, or CrossingVerdict, of a crossing of this entry
