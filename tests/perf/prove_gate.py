@@ -15,6 +15,7 @@ import unittest
 
 program = sys.argv.pop(1)
 shut = 6
+bad_input = 2
 hidden_in = "particle to grid"
 
 
@@ -55,6 +56,11 @@ class Gate(unittest.TestCase):
             lines = history.readlines()
         self.assertEqual(len(lines), 1)
         self.assertIn('"reason":"proof"', lines[0])
+
+    def test_a_part_of_the_scenes_does_not_become_the_baseline(self):
+        run = gate("--first", "2", "--update", "fewer", timeout=600)
+        self.assertEqual(run.returncode, bad_input, run.stdout + run.stderr)
+        self.assertIn("--first", run.stderr)
 
     def shuts(self, *options):
         run = gate("--slow-down", hidden_in, *options, timeout=300)
