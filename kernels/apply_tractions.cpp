@@ -25,24 +25,21 @@ bool spread(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k,
     constexpr int width = AxisWeights::width;
     PointForces::Surface& s = to.surface[side];
     double mass[PointForces::nodes];
-    MotionSums sums;
-    for (int j = 0; j < width; ++j) {
-      RowSums row;
+    SurfaceSums sums;
+    for (int j = 0; j < width; ++j)
       for (int i = 0; i < width; ++i) {
         const int n = j * width + i, at = slot[side][n];
         s.slot[n] = std::max(at, 0);
-        const double m = double(from.grid.mass[s.slot[n]]);
+        const double m = double(from.mass[s.slot[n]]);
         mass[n] = at >= 0 && m > least ? m : 0;
-        from.add(row, around.x, i, s.slot[n], mass[n]);
+        from.add(sums, around, i, j, from.q + 4L * s.slot[n], mass[n]);
       }
-      sums.add(row, around.y, j);
-    }
-    found[side] = sums.near[3] > 0;
+    found[side] = sums.near > 0;
     if (!found[side])
       return;
-    const MassAround around_point(surface_sums(sums, from.dt));
+    const MassAround around_point(sums);
     Vec2 rest = side == 0 ? force : -force;
-    const TurningForce turning(around_point, rest, from.grid.lattice.h);
+    const TurningForce turning(around_point, rest, from.lattice.h);
     // what rounding leaves of the second part, near a lone node many times its usual size, is taken from the first
     for (int n = 0; n < PointForces::nodes; ++n) {
       const int i = n % width, j = n / width;
@@ -62,11 +59,7 @@ void apply_tractions(const exec::Space& space, State<Real, 2>& s, std::vector<Po
   const Cracks& cracks = s.cracks;
   for (CrackTraction& t : s.cracks.traction)
     t.law.pressure.value = t.pressure(s.clock.time);
-  const Extrapolation<Shape, Real> from{.grid = s.grid,
-                                        .fields = s.fields,
-                                        .view = surface_view(s.grid.lattice, cracks, s.fields),
-                                        .inv_h = 1 / s.grid.lattice.h,
-                                        .dt = s.clock.dt};
+  const Extrapolation<Shape, Real> from(s.grid, cracks, s.fields, s.clock.dt);
   const long points = cracks.points();
   const double least = mass_cutoff(s);
   forces.resize(static_cast<size_t>(points));

@@ -92,10 +92,8 @@ class FaceFields {
         continue;
       const int f = view_.node_index[node];
       int field = 0;
-      if (f >= 0) {
-        face.look(view_);
+      if (f >= 0)
         field = field_of_surface(view_, face, view_.nodes[f], l.position(ni, nj));
-      }
       if (field < 0)
         continue;
       const FieldFit& fit = fits(ni, nj, f)[field];

@@ -12,8 +12,8 @@ namespace riven {
 
 namespace {
 
-/// Points that one task looks up, and how far ahead it asks for nodes.
-constexpr long points_of_task = 32, ahead = 4;
+/// Points that one task looks up.
+constexpr long points_of_task = 32;
 
 /// Points whose surfaces are fitted together.
 constexpr long points_of_fit = MotionLanes::lanes / 2;
@@ -125,21 +125,31 @@ void close_tip(Moves& m, long k, Cracks& cracks) {
     cracks.upper_velocity[k] = cracks.lower_velocity[k] = 0.5 * (cracks.upper_velocity[k] + cracks.lower_velocity[k]);
 }
 
-/// Looks up the surfaces of points [first, end), as many as are fitted together.
+/// Looks up the surfaces of points [first, end), as many as are fitted together. In stages, so that what one point
+/// waits for is not what the next one does.
 template <class Shape, class Real>
 void find_surfaces(const Extrapolation<Shape, Real>& from, const Cracks& cracks, long first, long end,
                    MotionLanes& found) {
-  SurfaceSumLanes lanes;
+  SurfacePair pair[points_of_fit];
+  bool on_grid[points_of_fit] = {};
   const long last = cracks.points() - 1;
   for (long k = first; k < end; ++k) {
-    from.prefetch_nodes(cracks.plane[std::min(k + 2 * ahead, last)]);
-    from.prefetch_fields(cracks.plane[std::min(k + ahead, last)]);
+    from.prefetch_nodes(cracks.plane[std::min(k + 2 * points_of_fit, last)]);
+    from.prefetch_fields(cracks.plane[std::min(k + points_of_fit, last)]);
     const Vec2 surface[2] = {cracks.upper[k], cracks.lower[k]};
-    from.sum_surfaces(crack_point(from.view, static_cast<int>(k)), surface, [&](int side, const SurfaceSums& sums) {
-      lanes.put(2 * static_cast<int>(k - first) + side, sums);
-    });
+    on_grid[k - first] = from.look_around(crack_point(from.view, static_cast<int>(k)), surface, pair[k - first]);
   }
-  lanes.fit(from.grid.lattice.h, found);
+  SurfaceLanes<Real> lanes;
+  for (long p = 0; p < points_of_fit; ++p) {
+    alignas(64) SurfaceSlots slot;
+    if (on_grid[p])
+      slots_of_surfaces(from.view, pair[p], slot);
+    else
+      std::fill(slot[0], slot[0] + 2 * surface_lanes, -1);
+    for (int side = 0; side < 2; ++side)
+      from.put(lanes, static_cast<int>(2 * p + side), on_grid[p] ? pair[p].x[side] : Vec2{}, slot[side]);
+  }
+  from.fit(lanes, found);
 }
 
 /// Moves the points of one crack by what was found for them.
@@ -173,11 +183,7 @@ void move_crack(const CrackRules& rules, double dt, int crack, const Found& foun
 template <class Shape, class Real>
 void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
                  double dt, Cracks& cracks) {
-  const Extrapolation<Shape, Real> from{.grid = grid,
-                                        .fields = fields,
-                                        .view = surface_view(grid.lattice, cracks, fields),
-                                        .inv_h = 1 / grid.lattice.h,
-                                        .dt = dt};
+  const Extrapolation<Shape, Real> from(grid, cracks, fields, dt);
   const long points = cracks.points();
   Found found(points, rules.motion);
   exec::parallel_tasks(space, "move cracks", (points + points_of_task - 1) / points_of_task, [&](long task) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/math/quad.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/cells_around.hpp"
 #include "kernels/surface_field.hpp"
@@ -16,11 +17,24 @@ template <class Shape, class Real>
 struct Extrapolation {
   static constexpr int width = AxisWeights::width;
   static_assert(width == surface_width);
+  static constexpr int off_grid = -1;
 
-  const Grid<Real>& grid;
-  const CrackFields& fields;
   SurfaceView view;
+  Lattice lattice;
+  const Real *mass, *q;      ///< Grid
+  const int* extra;          ///< CrackFields
+  const std::uint8_t* held;  ///< CrackFields
   double inv_h, dt;
+
+  Extrapolation(const Grid<Real>& grid, const Cracks& cracks, const CrackFields& fields, double dt_)
+      : view(surface_view(grid.lattice, cracks, fields)),
+        lattice(grid.lattice),
+        mass(grid.mass.data()),
+        q(grid.q.data()),
+        extra(fields.extra.data()),
+        held(fields.held.data()),
+        inv_h(1 / grid.lattice.h),
+        dt(dt_) {}
 
   /// The nodes around a point.
   struct Around {
@@ -28,122 +42,138 @@ struct Extrapolation {
   };
 
   RIVEN_INLINE AxisWeights along(double X, int axis) const {
-    const Lattice& l = grid.lattice;
+    const Lattice& l = lattice;
     const double nearest = std::floor(X + 0.5), r = X - nearest;
     const double below = 0.5 - r, above = 0.5 + r;
-    AxisWeights w{static_cast<int>(nearest) - 1,
-                  {l.h * (-1 - r), l.h * -r, l.h * (1 - r)},
+    AxisWeights w{{l.h * (-1 - r), l.h * -r, l.h * (1 - r)},
                   {std::max(0., -r), 1 - std::fabs(r), std::max(0., r)},
                   {0.5 * below * below, 0.75 - r * r, 0.5 * above * above}};
     if constexpr (std::is_same_v<Shape, BSpline>) {
       const auto near = BSpline::axis(X, AxisSetting<double>{0, 0, l.wall_lower[axis], l.wall_upper[axis]});
-      std::copy(near.s, near.s + width, w.near);
+      for (int i = 0; i < width; ++i)
+        w.near[i] = near.s[i];
     }
     return w;
   }
   RIVEN_INLINE Around around(Vec2 x) const {
-    const Vec2 X = (x - grid.lattice.origin) * inv_h;
+    const Vec2 X = (x - lattice.origin) * inv_h;
     return {along(X.x, 0), along(X.y, 1)};
   }
-  /// The first node around a point, or 0 if some are off the grid.
+  /// The first node around a point, or off_grid if some are.
   RIVEN_INLINE int corner(Vec2 x) const {
-    const Vec2 X = (x - grid.lattice.origin) * inv_h;
+    const Vec2 X = (x - lattice.origin) * inv_h;
     const int i = static_cast<int>(std::floor(X.x + 0.5)) - 1, j = static_cast<int>(std::floor(X.y + 0.5)) - 1;
-    return on_grid(i, j) ? j * grid.lattice.nx + i : 0;
+    return on_grid(i, j) ? j * lattice.nx + i : off_grid;
   }
   RIVEN_INLINE bool on_grid(int i, int j) const {
-    return i >= 0 && j >= 0 && i + width <= grid.lattice.nx && j + width <= grid.lattice.ny;
+    return i >= 0 && j >= 0 && i + width <= lattice.nx && j + width <= lattice.ny;
   }
-  RIVEN_INLINE bool on_grid(const Around& a) const { return on_grid(a.x.base, a.y.base); }
-
-  RIVEN_INLINE void add(RowSums& row, const AxisWeights& x, int i, long slot, double mass) const {
-    const Real* q = grid.q.data() + 4 * slot;
-    row.add(mass, Quad<double>{double(q[0]), double(q[1]), double(q[2]), double(q[3])}, x, i);
+  /// Adds node (i, j) of those around a point, of mass m and the given motion [vx vy ax ay].
+  RIVEN_INLINE void add(SurfaceSums& sums, const Around& at, int i, int j, const Real* motion, double m) const {
+    const Vec2 a{double(motion[2]), double(motion[3])}, v{motion[0] - dt * a.x, motion[1] - dt * a.y};
+    sums.add(m * at.x.near[i] * at.y.near[j], m * at.x.wide[i] * at.y.wide[j], at.x.r[i], at.y.r[j], v, a);
   }
 
   /// Asks for the nodes around a point some steps ahead, and, once those are known, for what they say of cracks: the
   /// points of a crack follow each other over the grid, where no processor would look next.
   RIVEN_INLINE void prefetch_nodes(Vec2 x) const {
-    int node = corner(x);
-    for (int j = 0; j < width; ++j, node += grid.lattice.nx) {
+    int node = std::max(corner(x), 0);
+    for (int j = 0; j < width; ++j, node += lattice.nx) {
       exec::prefetch(view.node_index + node);
-      exec::prefetch(fields.extra.data() + node);
-      exec::prefetch(grid.mass.data() + node);
-      exec::prefetch(grid.q.data() + 4L * node);
-      exec::prefetch(grid.q.data() + 4L * node + 8);
+      exec::prefetch(view.cell_index + node);
+      exec::prefetch(extra + node);
+      exec::prefetch(mass + node);
+      exec::prefetch(q + 4L * node);
+      exec::prefetch(q + 4L * node + 8);
     }
   }
   RIVEN_INLINE void prefetch_fields(Vec2 x) const {
-    int node = corner(x);
-    for (int j = 0; j < width; ++j, node += grid.lattice.nx) {
-      const int f = view.node_index[node];
-      if (f < 0)
-        continue;
-      const long slot = long{grid.lattice.nodes()} + fields.extra[node];
+    int node = std::max(corner(x), 0);
+    for (int j = 0; j < width; ++j, node += lattice.nx) {
+      const int f = std::max(view.node_index[node], 0);  // any node, where it sees no crack
+      const long slot = long{lattice.nodes()} + extra[node];
       exec::prefetch(view.nodes + f);
       exec::prefetch(view.nodes + f + 2);
-      exec::prefetch(grid.mass.data() + slot);
-      exec::prefetch(grid.q.data() + 4 * slot);
-      exec::prefetch(grid.q.data() + 4 * slot + 8);
+      exec::prefetch(mass + slot);
+      exec::prefetch(q + 4 * slot);
+      exec::prefetch(q + 4 * slot + 8);
     }
+  }
+
+  /// Looks at what the nodes around a point know of cracks; false if the surfaces x are off the grid.
+  RIVEN_INLINE bool look_around(const CrackPoint& point, const Vec2* x, SurfacePair& pair) const {
+    const Lattice& l = lattice;
+    pair.own = point;
+    for (int k = 0; k < 2; ++k) {
+      pair.x[k] = x[k];
+      pair.cell[k] = cell_at<Shape>(l, (x[k] - l.origin) * inv_h);
+      pair.first[k] = corner(x[k]);
+    }
+    if (pair.first[0] == off_grid || pair.first[1] == off_grid)
+      return false;
+    pair.around.load(view, pair.first[0]);
+    return true;
   }
 
   /// use(k, around, slot) for the upper (k = 0) and the lower surface of a point: slot[k][n] is the slot of the n-th
   /// node around it, row by row, or -1. Not at all if the surfaces are off the grid.
   template <class Use>
   RIVEN_INLINE void each_surface(const CrackPoint& point, const Vec2* x, const Use& use) const {
-    const Lattice& l = grid.lattice;
-    const Around a[2] = {around(x[0]), around(x[1])};
-    if (!on_grid(a[0]) || !on_grid(a[1]))
+    SurfacePair pair;
+    if (!look_around(point, x, pair))
       return;
-    const auto cell = [&](Vec2 at) { return cell_at<Shape>(l, (at - l.origin) * inv_h); };
-    SurfacePoint s[2] = {{point, Side::above, x[0], cell(x[0])}, {point, Side::below, x[1], cell(x[1])}};
-    const bool together = a[0].x.base == a[1].x.base && a[0].y.base == a[1].y.base;
     alignas(64) SurfaceSlots slot;
-    for (int first = 0; first < 2; first += together ? 2 : 1) {
-      slots_of_surfaces(view, s, a[first].x.base, a[first].y.base, slot);
-      for (int k = first; k < (together ? 2 : first + 1); ++k)
-        use(k, a[k], slot);
+    slots_of_surfaces(view, pair, slot);
+    for (int k = 0; k < 2; ++k)
+      use(k, around(x[k]), slot);
+  }
+
+  /// Copies the nodes around a surface at x to a lane; without slots, as nodes without mass.
+  RIVEN_INLINE void put(SurfaceLanes<Real>& to, int lane, Vec2 x, const int* slot) const {
+    to.x[lane] = x.x;
+    to.y[lane] = x.y;
+    for (int n = 0; n < width * width; ++n) {
+      const int there = std::max(slot[n], 0);
+      quad_at<Real>(to.q[n][lane]) = quad_at<Real>(q + 4L * there);
+      to.mass[n][lane] = slot[n] < 0 ? Real(0) : mass[there];
     }
   }
 
-  /// put(k, sums) for the upper (k = 0) and the lower surface of a point; not at all if they are off the grid.
-  template <class Put>
-  RIVEN_INLINE void sum_surfaces(const CrackPoint& point, const Vec2* x, const Put& put) const {
-    each_surface(point, x, [&](int k, const Around& a, const SurfaceSlots& slot) {
-      MotionSums sums;
-      for (int j = 0; j < width; ++j) {
-        RowSums row;
+  /// The motions of surfaces side by side, zeros where there is no mass.
+  RIVEN_INLINE void fit(const SurfaceLanes<Real>& surfaces, MotionLanes& to) const {
+    const Extrapolation from = *this;  // known to the compiler not to change
+#pragma omp simd
+    for (int k = 0; k < MotionLanes::lanes; ++k) {
+      const Around at = from.around({surfaces.x[k], surfaces.y[k]});
+      SurfaceSums sums;
+#pragma GCC unroll 3
+      for (int j = 0; j < width; ++j)
 #pragma GCC unroll 3
         for (int i = 0; i < width; ++i) {
-          const int at = slot[k][j * width + i], there = std::max(at, 0);
-          add(row, a.x, i, there, at < 0 ? 0. : double(grid.mass[there]));
+          const int n = j * width + i;
+          from.add(sums, at, i, j, surfaces.q[n][k], double(surfaces.mass[n][k]));
         }
-        sums.add(row, a.y, j);
-      }
-      put(k, surface_sums(sums, dt));
-    });
+      to.put(k, fit_motion(sums, from.lattice.h));
+    }
   }
 
   PointMotion of_all_fields(Vec2 x) const {
-    const Around a = around(x);
-    if (!on_grid(a))
+    const int first = corner(x);
+    if (first == off_grid)
       return {};
-    MotionSums sums;
-    for (int j = 0; j < width; ++j) {
-      RowSums row;
+    const Around at = around(x);
+    SurfaceSums sums;
+    for (int j = 0; j < width; ++j)
       for (int i = 0; i < width; ++i) {
-        const int node = (a.y.base + j) * grid.lattice.nx + a.x.base + i, f = fields.node_index[node];
-        const int held = f < 0 ? 0 : fields.held[f];
-        add(row, a.x, i, node, grid.mass[node]);
-        for (int field = 0; field < (1 << held) - 1; ++field) {
-          const long slot = long{grid.lattice.nodes()} + fields.extra[node] + field;
-          add(row, a.x, i, slot, grid.mass[slot]);
+        const int node = first + j * lattice.nx + i, f = view.node_index[node];
+        const int cracks = f < 0 ? 0 : held[f];
+        add(sums, at, i, j, q + 4L * node, mass[node]);
+        for (int field = 0; field < (1 << cracks) - 1; ++field) {
+          const long slot = long{lattice.nodes()} + extra[node] + field;
+          add(sums, at, i, j, q + 4 * slot, mass[slot]);
         }
       }
-      sums.add(row, a.y, j);
-    }
-    return fit_motion(surface_sums(sums, dt), grid.lattice.h);
+    return fit_motion(sums, lattice.h);
   }
 };
 

@@ -88,7 +88,6 @@ struct SurfacePoint {
   int cell;  ///< that of x, by the shape function of the hash
   bool looked = false;
   int first = 0, last = 0;  ///< once looked: part of cell_segment that the cell sees
-  bool alone = true;        ///< and whether no other crack is among these
 
   /// Most points never need to know which segments are around.
   RIVEN_INLINE void look(const SurfaceView& view) {
@@ -100,8 +99,6 @@ struct SurfacePoint {
       return;
     first = view.cell_start[seen];
     last = view.cell_start[seen + 1];
-    const auto is_own = [&](int at) { return view.crack[view.cell_segment[at]] == own.crack; };
-    alone = first == last || (is_own(first) && is_own(last - 1));
   }
 };
 
@@ -142,19 +139,20 @@ RIVEN_INLINE SegmentRange segments_of(const SurfaceView& view, const SurfacePoin
 /// a cell. The surface itself may lie on the wrong side, where faces overlap, and a line from the point to a node in
 /// line with the crack, as those beyond the tip of a crack on a grid line, would run along the crack and cross it or
 /// not by rounding. To a node well off a straight crack it crosses at once, except past the tip that it starts from.
-RIVEN_INLINE bool crosses_own(const SurfaceView& view, const SurfacePoint& s, Vec2 n) {
+RIVEN_INLINE bool crosses_own(const SurfaceView& view, SurfacePoint& s, Vec2 n) {
   const Vec2 r = n - s.own.x;
   const double off = dot(r, s.own.left), h = view.lattice.h;
   if (std::fabs(off) > s.own.off)
     return (off > 0) != (s.side == Side::above) && !(dot(r, s.own.beyond) > 0);
+  s.look(view);
   const SegmentRange own = segments_of(view, s, s.own.crack);
   const Vec2 from = s.own.x + ((s.side == Side::above ? 1e-3 : -1e-3) * h) * s.own.left;
   return own.at < own.end && side_crossed(view, from, n, own.at, own.end) != Side::none;
 }
 
 /// Adds what the other cracks in sight make of a field, or -1.
-inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s, Vec2 n, const NodeCracks& held,
-                                 int field) {
+inline RIVEN_FN int cross_others(const SurfaceView& view, SurfacePoint& s, Vec2 n, const NodeCracks& held, int field) {
+  s.look(view);
   for (int at = s.first, end = at; at < s.last; at = end) {
     const int crack = view.crack[view.cell_segment[at]];
     while (end < s.last && view.crack[view.cell_segment[end]] == crack)
@@ -180,8 +178,7 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, const SurfacePoint& s,
 /// of its own crack that is where the node has crossings from this surface's side; near a tip the line may pass beyond,
 /// whatever the node holds. The field of a crack that the line crosses and the node does not hold is empty; only a
 /// crack beyond the three that a node can hold is ignored, as it is for particles.
-inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint& s, const NodeCracks& held,
-                                     Vec2 place) {
+inline RIVEN_FN int field_of_surface(const SurfaceView& view, SurfacePoint& s, const NodeCracks& held, Vec2 place) {
   const int m = held.which(s.own.crack);
   const bool holds = m >= 0;
   int field = holds && held.side[m] == s.side ? 1 << m : 0;
@@ -189,40 +186,30 @@ inline RIVEN_FN int field_of_surface(const SurfaceView& view, const SurfacePoint
     field = 0;
   else if (!holds)
     field = held.crack[most_held - 1] < 0 ? -1 : 0;
-  return field < 0 ? field : detail::cross_others(view, s, place, held, field);
+  return field < 0 || held.sees == s.own.crack ? field : detail::cross_others(view, s, place, held, field);
 }
 
 /// Nodes around a point of a crack: 3 x 3 of them, row by row, and room for the lanes behind.
 inline constexpr int surface_width = 3, surface_lanes = 16;
 using SurfaceSlots = int[2][surface_lanes];  ///< of the upper and the lower surface; -1: no such field
 
-namespace detail {
-
-/// What nodes know of the cracks around them, side by side. Lanes past the last node hold zeros.
+/// What the nodes around a point know of cracks, side by side. Lanes past the last node hold zeros.
 struct NodesAround {
-  alignas(64) int node[surface_lanes] = {};
   alignas(64) int flagged[surface_lanes] = {};
-  alignas(64) int extra[surface_lanes] = {};
+  alignas(64) int extra[surface_lanes] = {};  ///< slot of the node's field 1
   alignas(64) int sees[surface_lanes] = {};
   alignas(64) int crack[2][surface_lanes] = {};
   alignas(64) int side[2][surface_lanes] = {};
-  alignas(64) float x[surface_lanes] = {};  ///< m, from the point
-  alignas(64) float y[surface_lanes] = {};
 
-  RIVEN_INLINE NodesAround(const SurfaceView& view, Vec2 from, int i, int j) {
-    const Lattice& l = view.lattice;
-    for (int b = 0, n = 0; b < surface_width; ++b)
+  /// Without branches: which nodes around a crack see it is beyond prediction.
+  RIVEN_INLINE void load(const SurfaceView& view, int first) {
+    static constexpr NodeCracks sees_none{};
+    for (int b = 0, n = 0; b < surface_width; ++b, first += view.lattice.nx)
       for (int a = 0; a < surface_width; ++a, ++n) {
-        const Vec2 r = l.position(i + a, j + b) - from;
-        node[n] = (j + b) * l.nx + i + a;
-        x[n] = static_cast<float>(r.x);
-        y[n] = static_cast<float>(r.y);
-        const int f = view.node_index[node[n]];
-        if (f < 0)
-          continue;
-        const NodeCracks& held = view.nodes[f];
-        flagged[n] = 1;
-        extra[n] = l.nodes() + held.extra;
+        const int f = view.node_index[first + a];
+        const NodeCracks& held = *(f < 0 ? &sees_none : view.nodes + f);
+        flagged[n] = f >= 0;
+        extra[n] = view.lattice.nodes() + held.extra;
         sees[n] = held.sees;
         for (int k = 0; k < 2; ++k) {
           crack[k][n] = held.crack[k];
@@ -232,50 +219,77 @@ struct NodesAround {
   }
 };
 
-}  // namespace detail
+/// Both surfaces of a crack's point.
+struct SurfacePair {
+  CrackPoint own;
+  Vec2 x[2];           ///< of the upper and the lower surface
+  int cell[2];         ///< SurfacePoint::cell
+  int first[2];        ///< of the nodes around each
+  NodesAround around;  ///< of the upper surface's nodes
+};
 
-/// The slots of the nodes from (i, j) on for the upper surface s[0] and the lower one s[1] of a point. Where the line
-/// along the point tells on which side of the crack a node is, and no other crack is in sight, these are found without
-/// branches, what comes next to what around a crack being beyond prediction. The others are looked at after, as are
-/// nodes that may see more than two cracks.
-RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, SurfacePoint* s, int i, int j, SurfaceSlots& slot) {
+namespace detail {
+
+/// The slots of the nodes from `first` on for the upper surface s[0] and the lower one s[1] of a point. Where the line
+/// along the point tells on which side of the crack a node is, and the node sees no other crack, these are found
+/// without branches, what comes next to what around a crack being beyond prediction. The others are looked at after.
+RIVEN_INLINE void find_slots(const SurfaceView& view, SurfacePoint* s, int first, const NodesAround& around,
+                             SurfaceSlots& slot) {
   const CrackPoint& own = s[0].own;
-  const detail::NodesAround around(view, own.x, i, j);
+  const Lattice& l = view.lattice;
+  const Vec2 from = l.position(first) - own.x;
+  const float x = float(from.x), y = float(from.y), h = float(l.h);
   const int crack = own.crack, tip = own.tip;
   const float left_x = float(own.left.x), left_y = float(own.left.y), far = float(own.off);
   const float beyond_x = float(own.beyond.x), beyond_y = float(own.beyond.y);
-  int unclear = 0, unsure = 0;  // a bit for each node
-#pragma omp simd reduction(| : unclear, unsure)
+  unsigned unsure = 0;  // a bit for each node
+#pragma omp simd reduction(| : unsure)
   for (int n = 0; n < surface_lanes; ++n) {
     const int second = around.crack[1][n] == crack, holds = second | (around.crack[0][n] == crack);
     const int side = second ? around.side[1][n] : around.side[0][n];
-    const float off = around.x[n] * left_x + around.y[n] * left_y;
-    const int within = !(around.x[n] * beyond_x + around.y[n] * beyond_y > 0), inside = !tip;
+    const int column = n % surface_width, row = n / surface_width;
+    const float rx = x + h * float(column), ry = y + h * float(row), off = rx * left_x + ry * left_y;
+    const int within = !(rx * beyond_x + ry * beyond_y > 0), inside = !tip;
     const int above = (off > 0) & within, below = (off <= 0) & within;  // crossed by paths from the other side
     const int loose = !holds, room = around.flagged[n] & loose & (around.crack[1][n] < 0);
-    const int node = around.node[n], field = around.extra[n] + second;
+    const int node = first + row * l.nx + column, field = around.extra[n] + second;
     const int from_above = holds & (side == int(Side::above)) & (below | inside);
     const int from_below = holds & (side == int(Side::below)) & (above | inside);
     slot[0][n] = from_above ? field : room & below ? -1 : node;
     slot[1][n] = from_below ? field : room & above ? -1 : node;
     const int near = !(std::fabs(off) > far);
-    const int here = around.flagged[n] & near & (loose | tip);
-    unclear |= (here | (around.sees[n] < -1)) << n;
-    unsure |= (here | (around.flagged[n] & (around.sees[n] != crack))) << n;
+    const int others = around.sees[n] != crack;
+    unsure |= static_cast<unsigned>(around.flagged[n] & ((near & (loose | tip)) | others)) << n;
   }
-  if (unsure == 0)
-    return;
-  s[0].look(view);
-  s[1].look(view);
-  for (auto rest = static_cast<unsigned>(s[0].alone && s[1].alone ? unclear : unsure); rest != 0; rest &= rest - 1) {
-    const int n = std::countr_zero(rest);
-    const NodeCracks& held = view.nodes[view.node_index[around.node[n]]];
-    const Vec2 place = view.lattice.position(around.node[n]);
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const int n = std::countr_zero(unsure), node = first + n / surface_width * l.nx + n % surface_width;
+    const NodeCracks& held = view.nodes[view.node_index[node]];
+    const Vec2 place = l.position(node);
     for (int k = 0; k < 2; ++k) {
       const int field = field_of_surface(view, s[k], held, place);
-      slot[k][n] = field == 0 ? around.node[n] : field < 0 ? -1 : around.extra[n] + field - 1;
+      slot[k][n] = field == 0 ? node : field < 0 ? -1 : around.extra[n] + field - 1;
     }
   }
+}
+
+/// The slots for a lower surface whose nodes are not those of the upper one.
+RIVEN_OUTLINE void find_lower_slots(const SurfaceView& view, SurfacePoint* s, int first, SurfaceSlots& slot) {
+  NodesAround around;
+  around.load(view, first);
+  SurfaceSlots own;
+  find_slots(view, s, first, around, own);
+  std::copy(own[1], own[1] + surface_lanes, slot[1]);
+}
+
+}  // namespace detail
+
+/// The slots of the nodes around both surfaces of a point, row by row.
+RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, const SurfacePair& pair, SurfaceSlots& slot) {
+  SurfacePoint s[2] = {{pair.own, Side::above, pair.x[0], pair.cell[0]},
+                       {pair.own, Side::below, pair.x[1], pair.cell[1]}};
+  detail::find_slots(view, s, pair.first[0], pair.around, slot);
+  if (pair.first[1] != pair.first[0])
+    detail::find_lower_slots(view, s, pair.first[1], slot);
 }
 
 }  // namespace riven

@@ -23,9 +23,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "core/math/quad.hpp"
 #include "core/math/vec.hpp"
 
 namespace riven {
@@ -74,63 +72,42 @@ RIVEN_INLINE FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec
 /// Nodes around a point along one axis: their distances r from it and their weights N and B.
 struct AxisWeights {
   static constexpr int width = 3;
-  int base;  ///< the first
   double r[width], near[width], wide[width];
 };
 
-/// Sums along one row of nodes, m being masses and q [vx vy ax ay] after the forces.
-struct RowSums {
-  Quad<double> near_q{}, wide_q{}, r_q{};  ///< m N q, m B q, m B rx q
-  Quad<double> mass{};                     ///< m B [1 rx rx^2 .], [. . . m N]
-  double near_r = 0;                       ///< m N rx
-
-  RIVEN_INLINE void add(double m, const Quad<double>& q, const AxisWeights& x, int i) {
-    const double N = x.near[i], B = x.wide[i], Br = B * x.r[i];
-    const Quad<double> mq = m * q;
-    near_q += N * mq;
-    wide_q += B * mq;
-    r_q += Br * mq;
-    mass += m * Quad<double>{B, Br, Br * x.r[i], N};
-    near_r += m * N * x.r[i];
-  }
-};
-
-/// Sums over all rows.
-struct MotionSums {
-  Quad<double> near_q{}, wide_q{}, rx_q{}, ry_q{};  ///< m N q, m B q, m B rx q, m B ry q
-  Quad<double> wide{}, wide_ry{}, wide_ry2{};       ///< m B [1 rx rx^2 .], m B ry [1 rx . .], m B ry^2 [1 . . .]
-  Quad<double> near{}, near_ry{};                   ///< m N [. . . 1], m N ry [. . . 1]
-  double near_rx = 0;
-
-  RIVEN_INLINE void add(const RowSums& row, const AxisWeights& y, int j) {
-    const double N = y.near[j], B = y.wide[j], r = y.r[j];
-    near_q += N * row.near_q;
-    wide_q += B * row.wide_q;
-    rx_q += B * row.r_q;
-    ry_q += (B * r) * row.wide_q;
-    wide += B * row.mass;
-    wide_ry += (B * r) * row.mass;
-    wide_ry2 += (B * r * r) * row.mass;
-    near += N * row.mass;
-    near_ry += (N * r) * row.mass;
-    near_rx += N * row.near_r;
-  }
-};
-
-/// What a fit needs of them, v being the velocity before the forces.
+/// Sums over the nodes around a point of what a fit needs: m masses, r offsets from the point, v velocities before the
+/// forces, a accelerations.
 struct SurfaceSums {
-  double near, near_rx, near_ry;                                   ///< m N [1 rx ry]
-  double wide, wide_rx, wide_ry, wide_rxrx, wide_rxry, wide_ryry;  ///< m B [1 rx ry rx^2 rx ry ry^2]
-  Vec2 near_a;                                                     ///< m N a
-  Vec2 near_v, wide_v, rx_v, ry_v;                                 ///< m N v, m B v, m B rx v, m B ry v
-};
+  double near = 0, near_rx = 0, near_ry = 0;                  ///< m N [1 rx ry]
+  double wide = 0, wide_rx = 0, wide_ry = 0;                  ///< m B [1 rx ry]
+  double wide_rxrx = 0, wide_rxry = 0, wide_ryry = 0;         ///< m B [rx^2 rx ry ry^2]
+  double near_ax = 0, near_ay = 0, near_vx = 0, near_vy = 0;  ///< m N a, m N v
+  double wide_vx = 0, wide_vy = 0;                            ///< m B v
+  double rx_vx = 0, rx_vy = 0, ry_vx = 0, ry_vy = 0;          ///< m B rx v, m B ry v
 
-RIVEN_INLINE SurfaceSums surface_sums(const MotionSums& s, double dt) {
-  const auto before = [dt](const Quad<double>& q) { return Vec2{q[0] - dt * q[2], q[1] - dt * q[3]}; };
-  return {s.near[3],        s.near_rx,        s.near_ry[3],   s.wide[0],     s.wide[1],
-          s.wide_ry[0],     s.wide[2],        s.wide_ry[1],   s.wide_ry2[0], {s.near_q[2], s.near_q[3]},
-          before(s.near_q), before(s.wide_q), before(s.rx_q), before(s.ry_q)};
-}
+  RIVEN_INLINE void add(double mN, double mB, double rx, double ry, Vec2 v, Vec2 a) {
+    const double Bx = mB * rx, By = mB * ry;
+    near += mN;
+    near_rx += mN * rx;
+    near_ry += mN * ry;
+    wide += mB;
+    wide_rx += Bx;
+    wide_ry += By;
+    wide_rxrx += Bx * rx;
+    wide_rxry += Bx * ry;
+    wide_ryry += By * ry;
+    near_ax += mN * a.x;
+    near_ay += mN * a.y;
+    near_vx += mN * v.x;
+    near_vy += mN * v.y;
+    wide_vx += mB * v.x;
+    wide_vy += mB * v.y;
+    rx_vx += Bx * v.x;
+    rx_vy += Bx * v.y;
+    ry_vx += By * v.x;
+    ry_vy += By * v.y;
+  }
+};
 
 /// How the mass lies around a point.
 struct MassAround {
@@ -138,7 +115,7 @@ struct MassAround {
   Vec2 arm, centre;      ///< x_s - x* and x^ - x_s
   double Cxx, Cxy, Cyy;  ///< mean of (x - x^) (x - x^)^T
 
-  explicit RIVEN_INLINE MassAround(SurfaceSums s)
+  explicit RIVEN_INLINE MassAround(const SurfaceSums& s)
       : near(1 / s.near),
         wide(1 / s.wide),
         arm(-near * Vec2{s.near_rx, s.near_ry}),
@@ -163,59 +140,46 @@ struct TurningForce {
 };
 
 /// The motion at the point, zeros where there is no mass; without branches. `h`: the cell.
-RIVEN_INLINE PointMotion fit_motion(SurfaceSums s, double h) {
+RIVEN_INLINE PointMotion fit_motion(const SurfaceSums& s, double h) {
   const MassAround mass(s);
-  const Vec2 r = mass.centre, v = mass.wide * s.wide_v;
-  const FittedGradient L = mass.fit(mass.wide * s.rx_v - r.x * v, mass.wide * s.ry_v - r.y * v, h);
-  const Vec2 before = mass.near * s.near_v + L(mass.arm);
+  const Vec2 r = mass.centre, v = mass.wide * Vec2{s.wide_vx, s.wide_vy};
+  const FittedGradient L =
+      mass.fit(mass.wide * Vec2{s.rx_vx, s.rx_vy} - r.x * v, mass.wide * Vec2{s.ry_vx, s.ry_vy} - r.y * v, h);
+  const Vec2 before = mass.near * Vec2{s.near_vx, s.near_vy} + L(mass.arm);
   const bool some = s.near > 0;
   const auto kept = [some](double value) RIVEN_LANE { return some ? value : 0.; };
   return {kept(s.near),
           {kept(before.x), kept(before.y)},
-          {kept(mass.near * s.near_a.x), kept(mass.near * s.near_a.y)},
+          {kept(mass.near * s.near_ax), kept(mass.near * s.near_ay)},
           kept(L.spin)};
 }
 
-/// The motions of several surfaces, side by side; those of a point follow each other.
+/// Several surfaces side by side, those of a point following each other, and the nodes around them, row by row, as each
+/// surface sees them.
+template <class Real>
+struct alignas(64) SurfaceLanes {
+  static constexpr int lanes = 16, nodes = AxisWeights::width * AxisWeights::width;
+  double x[lanes], y[lanes];
+  Real mass[nodes][lanes];
+  Real q[nodes][lanes][4];  ///< [vx vy ax ay]
+};
+
+/// Their motions.
 struct alignas(64) MotionLanes {
-  static constexpr int lanes = 16, numbers = 6;
+  static constexpr int lanes = SurfaceLanes<double>::lanes, numbers = 6;
   double value[numbers][lanes];
 
   PointMotion motion(int lane) const {
     const auto at = [&](int n) { return value[n][lane]; };
     return {at(0), {at(1), at(2)}, {at(3), at(4)}, at(5)};
   }
-};
-
-/// Their sums.
-struct alignas(64) SurfaceSumLanes {
-  static constexpr int lanes = MotionLanes::lanes;
-  static constexpr int numbers = sizeof(SurfaceSums) / sizeof(double);
-  double value[numbers][lanes] = {};
-
-  void put(int lane, const SurfaceSums& s) {
-    double number[numbers];
-    std::memcpy(number, &s, sizeof(number));
-    for (int n = 0; n < numbers; ++n)
-      value[n][lane] = number[n];
-  }
-
-  /// The motions that fit them; zeros where nothing was put.
-  void fit(double h, MotionLanes& to) const {
-#pragma omp simd
-    for (int k = 0; k < lanes; ++k) {
-      const auto at = [&, k](int n) RIVEN_LANE { return value[n][k]; };
-      const auto pair = [&](int n) RIVEN_LANE { return Vec2{at(n), at(n + 1)}; };
-      const PointMotion m = fit_motion({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), pair(9),
-                                        pair(11), pair(13), pair(15), pair(17)},
-                                       h);
-      to.value[0][k] = m.mass;
-      to.value[1][k] = m.before.x;
-      to.value[2][k] = m.before.y;
-      to.value[3][k] = m.acceleration.x;
-      to.value[4][k] = m.acceleration.y;
-      to.value[5][k] = m.spin;
-    }
+  RIVEN_INLINE void put(int lane, const PointMotion& m) {
+    value[0][lane] = m.mass;
+    value[1][lane] = m.before.x;
+    value[2][lane] = m.before.y;
+    value[3][lane] = m.acceleration.x;
+    value[4][lane] = m.acceleration.y;
+    value[5][lane] = m.spin;
   }
 };
 

@@ -104,12 +104,23 @@ class Tracer {
         f(first_ + b * exec::lanes, std::min(last_, first_ + (b + 1) * exec::lanes), block_limit_[b]);
   }
 
+  /// A bit for each particle of a block that is due.
+  unsigned due_lanes(long first, int count) const {
+    const double path = tile_->path;
+    const double* const limit = fields_.limit.data() + (first + tile_->known);
+    const unsigned all = (1u << count) - 1;
+    unsigned due = all_due() ? all : 0;
+#pragma omp simd reduction(| : due)
+    for (int k = 0; k < count; ++k)
+      due |= static_cast<unsigned>(!(path < limit[k])) << k;
+    return due;
+  }
+
   /// Takes note of the particles of a block that are due. What is known of them lies apart in memory, and is asked for
   /// some particles ahead.
   void look(long first, long last) {
-    for (long p = first; p < last; ++p) {
-      if (!all_due() && tile_->path < fields_.limit[p + tile_->known])
-        continue;
+    for (unsigned due = due_lanes(first, static_cast<int>(last - first)); due != 0; due &= due - 1) {
+      const long p = first + std::countr_zero(due);
       if (noted_ == most_noted)
         keep_all(ahead);
       exec::prefetch(&fields_.memory[p + tile_->known]);

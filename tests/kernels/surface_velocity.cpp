@@ -14,8 +14,7 @@ constexpr double h = 0.5;
 
 /// The nodes around a point at `r` cells from the middle one.
 AxisWeights axis(double r) {
-  return {-1,
-          {h * (-1 - r), h * -r, h * (1 - r)},
+  return {{h * (-1 - r), h * -r, h * (1 - r)},
           {std::max(0., -r), 1 - std::fabs(r), std::max(0., r)},
           {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)}};
 }
@@ -30,19 +29,15 @@ TEST(SurfaceForce, DoesOnNodesTheWorkThatItDoesOnTheSurface) {
     const Vec2 F{any(random), any(random)};
     double mass[9];
     Vec2 v[9];
-    MotionSums sums;
-    for (int j = 0; j < 3; ++j) {
-      RowSums row;
+    SurfaceSums sums;
+    for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
         const int n = 3 * j + i;
         mass[n] = j == 0 && trial % 2 == 0 ? 0 : std::pow(10., 2 * any(random) - 2);
         v[n] = {any(random), any(random)};
-        row.add(mass[n], Quad<double>{v[n].x, v[n].y, 0, 0}, x, i);
+        sums.add(mass[n] * x.near[i] * y.near[j], mass[n] * x.wide[i] * y.wide[j], x.r[i], y.r[j], v[n], {});
       }
-      sums.add(row, y, j);
-    }
-    const SurfaceSums of = surface_sums(sums, 1);
-    const MassAround around(of);
+    const MassAround around(sums);
     const TurningForce turning(around, F, h);
     double work = 0, moment = 0, size = 0;
     Vec2 all;
@@ -55,7 +50,7 @@ TEST(SurfaceForce, DoesOnNodesTheWorkThatItDoesOnTheSurface) {
       moment += cross(r, f);
       size += norm(f);
     }
-    EXPECT_NEAR(work, dot(F, fit_motion(of, h).before), 1e-9 * size);
+    EXPECT_NEAR(work, dot(F, fit_motion(sums, h).before), 1e-9 * size);
     EXPECT_NEAR(norm(all - F), 0, 1e-9 * size);
     // about the point; mu (surface_velocity.hpp) withstands turning
     EXPECT_NEAR(moment, 0, 1e-5 * size * h);
