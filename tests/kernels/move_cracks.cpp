@@ -172,6 +172,24 @@ TEST(MoveCracks, KeepsPointsOutsideOfTheBodyInLine) {
   EXPECT_GE(outside, 1);
 }
 
+/// Where there are no nodes at all, points follow the crack's last one that knows how the body moves.
+TEST(MoveCracks, TakesPointsOffTheGridAlong) {
+  Setting s = make_setting<UGimp>({{{4.15, 4.7}, {26.2, 7.1}}, {{5.1, 7.3}, {5.2, -40.5}}});
+  const Cracks before = s.cracks;
+  const Vec2 v{3.1, -1.7};
+  const double dt = 0.01;
+  set_motion(s, [&](Vec2, int, int) { return std::array{v.x, v.y, 0., 0.}; });
+  move_cracks<UGimp>(exec::Space{}, s.grid, s.fields, {}, dt, s.cracks);
+  int off = 0;
+  for (int k = 0; k < s.cracks.points(); ++k) {
+    off += before.plane[k].x > 20 || before.plane[k].y < -10;
+    EXPECT_LT(norm(s.cracks.plane[k] - before.plane[k] - dt * v), 1e-14) << k;
+    EXPECT_LT(norm(s.cracks.upper[k] - before.upper[k] - dt * v), 1e-14) << k;
+    EXPECT_LT(norm(s.cracks.lower[k] - before.lower[k] - dt * v), 1e-14) << k;
+  }
+  EXPECT_GE(off, 60);
+}
+
 /// A crack on a row of nodes between two blocks that mirror each other's motion: whatever rounding has made of its
 /// points, the plane stays on the row, the surfaces mirror each other, and no node beyond a tip is seen from one side.
 template <class Shape>
