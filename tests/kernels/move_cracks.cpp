@@ -199,9 +199,9 @@ void mirror() {
   for (double from : {4.13, 4.29, 4.37, 4.71})
     for (int trial = 0; trial < 20; ++trial) {
       const double at = 6;
-      std::vector<Vec2> line;
-      for (int i = 0; i < 8; ++i)
-        line.push_back({from + 0.5 * i, at + (trial > 0 ? noise(random) : 0)});
+      std::vector<Vec2> line(8);
+      for (size_t i = 0; i < line.size(); ++i)
+        line[i] = {from + 0.5 * static_cast<double>(i), at + (trial > 0 ? noise(random) : 0)};
       Setting s = make_setting<Shape>({line});
       set_motion(s, [&](Vec2 x, int node, int field) {
         const int i = s.fields.node_index[node];
