@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cases/commands.hpp"
 #include "core/error.hpp"
@@ -45,6 +47,22 @@ void print_tasks(const Summary& s) {
     fmt::print("{:<38} {:>10.3f} {:>10} {:>6.1f}%\n", t.label, t.seconds, t.calls, 100 * t.seconds / total);
 }
 
+/// "9 of 10 cracks grew; 2 fragments, with 54.4, 45.6 % of the mass"
+void print_growth(const Summary& s) {
+  constexpr size_t most = 12;
+  const auto grew =
+      std::count_if(s.cracks.begin(), s.cracks.end(), [](const Summary::Crack& c) { return c.grown > 0; });
+  double mass = 0;
+  std::vector<std::string> shares;
+  for (const Fragment& f : s.fragments)
+    mass += f.mass;
+  for (size_t i = 0; i < std::min(most, s.fragments.size()); ++i)
+    shares.push_back(fmt::format("{:.3g}", 100 * s.fragments[i].mass / mass));
+  fmt::print("{} of {} cracks grew; {} fragment{}, with {}{} % of the mass\n", grew, s.cracks.size(),
+             s.fragments.size(), s.fragments.size() == 1 ? "" : "s", fmt::join(shares, ", "),
+             s.fragments.size() > most ? ", ..." : "");
+}
+
 void print_summary(const Summary& s, const std::filesystem::path& folder) {
   fmt::print("\n{} steps to {} in {}: {:.2f} million particle-steps/s\n", s.steps, format_time(s.time),
              format_duration(s.wall_seconds), 1e-6 * s.particle_steps_per_second);
@@ -59,10 +77,13 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
     fmt::print("{:<24} {:.6g} {}\n", p.name, p.value, p.unit);
   constexpr size_t most = 20;
   for (size_t i = 0; i < std::min(most, s.cracks.size()); ++i)
-    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm\n", s.cracks[i].name, 1e3 * s.cracks[i].max_opening,
-               1e3 * s.cracks[i].length);
+    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm{}\n", s.cracks[i].name, 1e3 * s.cracks[i].max_opening,
+               1e3 * s.cracks[i].length,
+               s.cracks[i].grown > 0 ? fmt::format(", grown by {:.4g} mm", 1e3 * s.cracks[i].grown) : "");
   if (s.cracks.size() > most)
     fmt::print("... and {} more cracks in summary.json\n", s.cracks.size() - most);
+  if (!s.fragments.empty())
+    print_growth(s);
   for (const Summary::Warning& w : s.warnings)
     fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x,
                w.first_place.y);

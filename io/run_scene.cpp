@@ -17,6 +17,7 @@
 #include "io/recorder.hpp"
 #include "io/stop_request.hpp"
 #include "io/summarize.hpp"
+#include "kernels/fragments.hpp"
 #include "kernels/time_step.hpp"
 
 namespace riven {
@@ -241,6 +242,8 @@ class Run {
     s.probes = record_->probes();
     s.retries = so_far_.retries;
     s.between_steps = between_;
+    if (m_.plan.growth && s.status != "unstable")
+      s.fragments = find_fragments(m_);
     write_summary(options_.folder / "summary.json", s);
     return s;
   }

@@ -39,12 +39,12 @@ Json by_name(const std::vector<T>& items, std::string T::*name, Make&& make) {
 
 }  // namespace
 
-std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks) {
+std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks, const std::vector<Tip>& tips) {
   const std::vector<CrackOpening> openings = crack_openings(cracks);
   std::vector<Summary::Crack> all;
   for (int c = 0; c < cracks.count(); ++c) {
     const auto k = static_cast<std::size_t>(c);
-    Summary::Crack out{cracks.names[k], 0, 0};
+    Summary::Crack out{cracks.names[k], 0, 0, 0};
     for (int i = cracks.start[k]; i < cracks.start[k + 1]; ++i) {
       out.max_opening = std::max(out.max_opening, openings[static_cast<std::size_t>(i)].normal);
       if (i > cracks.start[k])
@@ -52,6 +52,8 @@ std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks) {
     }
     all.push_back(out);
   }
+  for (const Tip& t : tips)
+    all[static_cast<std::size_t>(t.crack)].grown += t.length;
   return all;
 }
 
@@ -120,8 +122,15 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
     return Json{{"value", number(v.value)}, {"unit", v.unit}};
   });
   j["cracks"] = list(s.cracks, [](const Summary::Crack& c) {
-    return Json{{"name", c.name}, {"max_opening", number(c.max_opening)}, {"length", number(c.length)}};
+    return Json{{"name", c.name},
+                {"max_opening", number(c.max_opening)},
+                {"length", number(c.length)},
+                {"grown", number(c.grown)}};
   });
+  if (!s.fragments.empty())
+    j["fragments"] = list(s.fragments, [](const Fragment& f) {
+      return Json{{"mass", number(f.mass)}, {"particles", f.particles}, {"centre", point(f.centre)}};
+    });
   j["reactions"] =
       by_name(s.reactions, &Summary::Reaction::grip, [](const Summary::Reaction& r) { return point(r.force); });
   // Names come from the user's scene: bytes that are no UTF-8 are replaced, not a reason to lose the results.

@@ -7,6 +7,7 @@
 #include "core/math/vec.hpp"
 #include "core/state/cracks.hpp"
 #include "io/retry.hpp"
+#include "kernels/fragments.hpp"
 
 namespace riven {
 
@@ -61,6 +62,7 @@ struct Summary {
     std::string name;
     double max_opening = 0;  ///< m, normal
     double length = 0;       ///< m, along the plane
+    double grown = 0;        ///< m, of that length
   };
   struct Reaction {
     std::string grip;
@@ -89,11 +91,12 @@ struct Summary {
   std::vector<Tip> tips;
   std::vector<Value> probes;
   std::vector<Crack> cracks;
+  std::vector<Fragment> fragments;  ///< where cracks grow: of all solids, the heaviest first
   std::vector<Reaction> reactions;
 };
 
-/// Opening and length of every crack as it is now.
-std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks);
+/// Opening, length and growth of every crack as it is now.
+std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks, const std::vector<Tip>& tips);
 
 /// The file appears whole or not at all. Throws Error (file).
 void write_summary(const std::filesystem::path& path, const Summary& summary);

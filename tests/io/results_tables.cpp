@@ -78,7 +78,11 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   s.angular_momentum_error = INFINITY;
   s.warnings = {{"both sides", 3, {0.5, 0.25}}, {"third crack", 0, {}}};
   s.probes = {{"opening", 1e-5, "m"}};
-  s.cracks = summarize_cracks(sample::cracks(1));
+  Tip grown;
+  grown.crack = 1;
+  grown.length = 3e-4;
+  s.cracks = summarize_cracks(sample::cracks(1), {grown, grown});
+  s.fragments = {{2, 30, {0.1, 0.2}}, {1, 15, {}}};
   s.reactions = {{"upper", {1, -2}}};
   write_summary(folder / "summary.json", s);
   const auto j = nlohmann::json::parse(sample::text_of(folder / "summary.json"));
@@ -103,6 +107,12 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   EXPECT_EQ(j["cracks"][1]["name"], "slanted");
   EXPECT_NEAR(j["cracks"][1]["max_opening"].get<double>(), 2e-5, 1e-17);
   EXPECT_NEAR(j["cracks"][0]["length"].get<double>(), 4 * 0.8e-3, 1e-15);
+  EXPECT_EQ(j["cracks"][0]["grown"], 0);
+  EXPECT_NEAR(j["cracks"][1]["grown"].get<double>(), 6e-4, 1e-18) << "at both tips";
+  ASSERT_EQ(j["fragments"].size(), 2u);
+  EXPECT_EQ(j["fragments"][0]["mass"], 2);
+  EXPECT_EQ(j["fragments"][0]["particles"], 30);
+  EXPECT_EQ(j["fragments"][0]["centre"][1], 0.2);
   EXPECT_EQ(j["reactions"]["upper"][1], -2);
 }
 

@@ -201,7 +201,7 @@ TEST(ResultsSample, WritesAFolderForOtherReaders) {
   summary.title = scene.title;
   summary.status = "done";
   summary.time = 1;
-  summary.cracks = summarize_cracks(sample::cracks(1, 5));
+  summary.cracks = summarize_cracks(sample::cracks(1, 5), {});
   write_summary(folder / "summary.json", summary);
   EXPECT_TRUE(std::filesystem::exists(folder / "particles.vtkhdf"));
   EXPECT_TRUE(std::filesystem::exists(folder / "cracks.pvd"));
