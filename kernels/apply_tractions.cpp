@@ -39,7 +39,7 @@ bool spread(const Extrapolation<Shape, Real>& from, const Cracks& cracks, int k,
       return;
     const MassAround around_point(sums);
     Vec2 rest = side == 0 ? force : -force;
-    const TurningForce turning(around_point, rest, from.lattice.h);
+    const TurningForce turning(around_point, rest, from.view.lattice.h);
     // what rounding leaves of the second part, near a lone node many times its usual size, is taken from the first
     for (int n = 0; n < PointForces::nodes; ++n) {
       const int i = n % width, j = n / width;

@@ -4,6 +4,7 @@
 
 #include "kernels/advance_grid.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/full_mass.hpp"
 #include "kernels/prescribe_velocities.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/views.hpp"
@@ -13,11 +14,11 @@ namespace riven {
 
 namespace {
 
-/// next += S^T M S term, in one pass over the particles.
-template <class Shape, class Real>
-void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+/// next += S^T M S term, in one pass over the particles; over those that see a node across a crack, where the full mass
+/// matrix has the others.
+template <class Shape, bool OnlyCrossing, class Real>
+void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const Real* term) {
   constexpr int L = exec::lanes;
-  const Real* term = s.grid.term.data();
   Real* next = s.grid.next.data();
   const int nx = s.grid.lattice.nx;
   const Real* mass = s.particles.mass.data();
@@ -26,15 +27,20 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y}, {mass}, {term, next}}};
   scatter_tiles<false>(space, "higher orders", plan.scatter, tiles, static_cast<Real*>(nullptr), next, WatchNothing{},
                        [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                         if constexpr (OnlyCrossing && !decltype(stretch)::value)
+                           return;
                          Block<Real, Shape> w;
                          for (long first = begin; first < end; first += L) {
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            ask_ahead(stretch, first);
                            w.weigh(at, first);
                            each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                             constexpr bool crosses = std::is_pointer_v<decltype(slots)>;
+                             if constexpr (OnlyCrossing && !crosses)
+                               return;
                              const Quad<Real> v = gather_from<false>(w, k, term, nx, slots).value;
                              const Quad<Real> mv = mass[first + k] * v, zero{};
-                             if constexpr (std::is_pointer_v<decltype(slots)>)
+                             if constexpr (crosses)
                                scatter_slots<false, false>(w, k, Real(0), mv, zero, zero, to, slots, extra,
                                                            static_cast<Real*>(nullptr), next);
                              else
@@ -44,37 +50,107 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
                        });
 }
 
+/// The full mass matrix of all particles but those that see a node across a crack.
+template <class Shape, class Real>
+void build_full_mass(const exec::Space& space, State<Real, 2>& s) {
+  constexpr int L = exec::lanes;
+  exec::parallel_zero(space, "clear full mass", s.grid.full_mass);
+  const FullMass<Real> full{s.grid.full_mass.data(), s.grid.lattice.nx};
+  const Real* mass = s.particles.mass.data();
+  const Positions<Real> at = positions(s);
+  const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, crossing_slots(s), {{at.x, at.y}, {mass}, {}}};
+  scatter_tiles<false>(space, "full mass", ScatterKind::ordered, tiles, static_cast<Real*>(nullptr), full.entries,
+                       WatchNothing{}, [=](auto stretch, long begin, long end, const auto&, auto&) RIVEN_LANE {
+                         Block<Real, Shape> w;
+                         for (long first = begin; first < end; first += L) {
+                           const int count = static_cast<int>(std::min<long>(L, end - first));
+                           ask_ahead(stretch, first);
+                           w.weigh(at, first);
+                           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                             if constexpr (!std::is_pointer_v<decltype(slots)>)
+                               full.add(w, k, mass[first + k]);
+                           });
+                         }
+                       });
+}
+
+/// One step of the series.
+template <class Real>
+struct Term {
+  const Real* term;  ///< [4 slots] velocities; of further numbers nothing is taken
+  bool first, last;  ///< whether no term has been summed before this one, and whether the one after it is summed, too
+  bool passes;       ///< particles have added to Grid::next
+};
+
+/// high += term, and next = term - m^-1 (next + M term) for the term after it.
+template <bool Full, class Real>
+void find_term(const exec::Space& space, State<Real, 2>& s, const Term<Real>& now) {
+  Grid<Real>& g = s.grid;
+  const Real least = Real(mass_cutoff(s));
+  const FullMass<Real> full{g.full_mass.data(), g.lattice.nx};
+  const long inside = 2L * g.lattice.nx + 2, end = g.lattice.nodes() - inside;  // ghosts, without mass, lie outside
+  exec::parallel_for(
+      space, "higher orders: term", g.slots(),
+      [=, mass = g.mass.data(), high = g.high.data(), next = g.next.data()](long n) {
+        const Quad<Real> term{now.term[4 * n], now.term[4 * n + 1], Real(0), Real(0)};
+        Quad<Real> smoothed{};
+        if (now.passes)
+          smoothed = quad_at<Real>(next + 4 * n);
+        if (Full && n >= inside && n < end && mass[n] > least)
+          smoothed += full.times(now.term, n);
+        const Real part = mass[n] > least ? Real(-1) / mass[n] : Real(0);
+        const Quad<Real> after = term + Quad<Real>{part * smoothed[0], part * smoothed[1], Real(0), Real(0)};
+        quad_at<Real>(next + 4 * n) = after;
+        Quad<Real> sum = term;
+        if (!now.first)
+          sum += quad_at<Real>(high + 4 * n);
+        if (now.last)
+          sum += after;
+        quad_at<Real>(high + 4 * n) = sum;
+      });
+}
+
+/// v - dt a, as before the momentum update.
+template <class Real>
+void go_back(const exec::Space& space, State<Real, 2>& s) {
+  const Real* q = s.grid.q.data();
+  const Real dt = Real(s.clock.dt);
+  exec::parallel_for(space, "higher orders: before", s.grid.slots(), [=, term = s.grid.term.data()](long n) {
+    const Quad<Real> v{q[4 * n] - dt * q[4 * n + 2], q[4 * n + 1] - dt * q[4 * n + 3], Real(0), Real(0)};
+    quad_at<Real>(term + 4 * n) = v;
+  });
+}
+
 }  // namespace
 
 template <class Real>
 void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   Grid<Real>& g = s.grid;
-  const long slots = g.slots();
-  const Real *q = g.q.data(), *mass = g.mass.data();
-  const Real back = Real(plan.transfer == Transfer::xpic ? s.clock.dt : 0), least = Real(mass_cutoff(s));
-  exec::parallel_for(
-      space, "higher orders: first", slots,
-      [=, high = g.high.data(), term = g.term.data(), next = g.next.data()](long n) {
-        const Quad<Real> v{q[4 * n] - back * q[4 * n + 2], q[4 * n + 1] - back * q[4 * n + 3], Real(0), Real(0)};
-        quad_at<Real>(high + 4 * n) = v;
-        quad_at<Real>(term + 4 * n) = v;
-        quad_at<Real>(next + 4 * n) = Quad<Real>{};
-      });
-  for (int j = 1; j < plan.order; ++j) {
-    with_shape(plan.shape, [&](auto shape) { smooth<typename decltype(shape)::type>(space, plan, s); });
-    exec::parallel_for(space, "higher orders: term", slots, [=, term = g.term.data(), next = g.next.data()](long n) {
-      const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
-      quad_at<Real>(next + 4 * n) = quad_at<Real>(term + 4 * n) + (-inverse) * quad_at<Real>(next + 4 * n);
-    });
-    if (plan.constraints)
-      prescribe_velocities(space, s, Stage::term);
-    g.term.swap(g.next);
-    exec::parallel_for(space, "higher orders: sum", slots,
-                       [=, high = g.high.data(), term = g.term.data(), next = g.next.data()](long n) {
+  const bool full = plan.full_mass(), passes = !full || plan.cracks;
+  if (plan.transfer == Transfer::xpic)
+    go_back(space, s);
+  with_shape(plan.shape, [&](auto chosen) {
+    using Shape = typename decltype(chosen)::type;
+    if (full)
+      build_full_mass<Shape>(space, s);
+    for (int j = 1; j < plan.order; ++j) {
+      const bool fresh = j == 1 && plan.transfer == Transfer::fmpm, last = j + 1 == plan.order;
+      const Term<Real> now{fresh ? g.q.data() : g.term.data(), j == 1, last && !plan.constraints, passes};
+      if (passes) {
+        exec::parallel_zero(space, "clear term", g.next);
+        with_flag(full, [&](auto rest) { smooth<Shape, decltype(rest)::value>(space, plan, s, now.term); });
+      }
+      with_flag(full, [&](auto product) { find_term<decltype(product)::value>(space, s, now); });
+      if (plan.constraints)
+        prescribe_velocities(space, s, Stage::term);
+      g.term.swap(g.next);
+    }
+  });
+  if (plan.constraints)
+    exec::parallel_for(space, "higher orders: last", g.slots(),
+                       [=, high = g.high.data(), term = g.term.data()](long n) {
                          quad_at<Real>(high + 4 * n) += quad_at<Real>(term + 4 * n);
-                         quad_at<Real>(next + 4 * n) = Quad<Real>{};
                        });
-  }
 }
 
 #define RIVEN_HIGHER_ORDERS(Real) template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);

@@ -65,14 +65,7 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
 
 template <class Real>
 void clear_grid(const exec::Space& space, State<Real, 2>& s) {
-  const long slots = s.grid.slots();
-  Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
-  constexpr long piece = 16384;
-  exec::parallel_tasks(space, "clear grid", (slots + piece - 1) / piece, [=](long c) {
-    const long begin = c * piece, end = std::min(slots, begin + piece);
-    std::fill(mass + begin, mass + end, Real(0));
-    std::fill(q + 4 * begin, q + 4 * end, Real(0));
-  });
+  exec::parallel_zero(space, "clear grid", s.grid.mass, s.grid.q);
 }
 
 template <class Real>

@@ -20,7 +20,6 @@ struct Extrapolation {
   static constexpr int off_grid = -1;
 
   SurfaceView view;
-  Lattice lattice;
   const Real *mass, *q;      ///< Grid
   const int* extra;          ///< CrackFields
   const std::uint8_t* held;  ///< CrackFields
@@ -28,7 +27,6 @@ struct Extrapolation {
 
   Extrapolation(const Grid<Real>& grid, const Cracks& cracks, const CrackFields& fields, double dt_)
       : view(surface_view(grid.lattice, cracks, fields)),
-        lattice(grid.lattice),
         mass(grid.mass.data()),
         q(grid.q.data()),
         extra(fields.extra.data()),
@@ -42,7 +40,7 @@ struct Extrapolation {
   };
 
   RIVEN_INLINE AxisWeights along(double X, int axis) const {
-    const Lattice& l = lattice;
+    const Lattice& l = view.lattice;
     const double nearest = std::floor(X + 0.5), r = X - nearest;
     const double below = 0.5 - r, above = 0.5 + r;
     AxisWeights w{{l.h * (-1 - r), l.h * -r, l.h * (1 - r)},
@@ -56,17 +54,17 @@ struct Extrapolation {
     return w;
   }
   RIVEN_INLINE Around around(Vec2 x) const {
-    const Vec2 X = (x - lattice.origin) * inv_h;
+    const Vec2 X = (x - view.lattice.origin) * inv_h;
     return {along(X.x, 0), along(X.y, 1)};
   }
   /// The first node around a point, or off_grid if some are.
   RIVEN_INLINE int corner(Vec2 x) const {
-    const Vec2 X = (x - lattice.origin) * inv_h;
+    const Vec2 X = (x - view.lattice.origin) * inv_h;
     const int i = static_cast<int>(std::floor(X.x + 0.5)) - 1, j = static_cast<int>(std::floor(X.y + 0.5)) - 1;
-    return on_grid(i, j) ? j * lattice.nx + i : off_grid;
+    return on_grid(i, j) ? j * view.lattice.nx + i : off_grid;
   }
   RIVEN_INLINE bool on_grid(int i, int j) const {
-    return i >= 0 && j >= 0 && i + width <= lattice.nx && j + width <= lattice.ny;
+    return i >= 0 && j >= 0 && i + width <= view.lattice.nx && j + width <= view.lattice.ny;
   }
   /// Adds node (i, j) of those around a point, of mass m and the given motion [vx vy ax ay].
   RIVEN_INLINE void add(SurfaceSums& sums, const Around& at, int i, int j, const Real* motion, double m) const {
@@ -78,7 +76,7 @@ struct Extrapolation {
   /// points of a crack follow each other over the grid, where no processor would look next.
   RIVEN_INLINE void prefetch_nodes(Vec2 x) const {
     int node = std::max(corner(x), 0);
-    for (int j = 0; j < width; ++j, node += lattice.nx) {
+    for (int j = 0; j < width; ++j, node += view.lattice.nx) {
       exec::prefetch(view.node_index + node);
       exec::prefetch(view.cell_index + node);
       exec::prefetch(extra + node);
@@ -89,9 +87,9 @@ struct Extrapolation {
   }
   RIVEN_INLINE void prefetch_fields(Vec2 x) const {
     int node = std::max(corner(x), 0);
-    for (int j = 0; j < width; ++j, node += lattice.nx) {
+    for (int j = 0; j < width; ++j, node += view.lattice.nx) {
       const int f = std::max(view.node_index[node], 0);  // any node, where it sees no crack
-      const long slot = long{lattice.nodes()} + extra[node];
+      const long slot = long{view.lattice.nodes()} + extra[node];
       exec::prefetch(view.nodes + f);
       exec::prefetch(view.nodes + f + 2);
       exec::prefetch(mass + slot);
@@ -102,7 +100,7 @@ struct Extrapolation {
 
   /// Looks at what the nodes around a point know of cracks; false if the surfaces x are off the grid.
   RIVEN_INLINE bool look_around(const CrackPoint& point, const Vec2* x, SurfacePair& pair) const {
-    const Lattice& l = lattice;
+    const Lattice& l = view.lattice;
     pair.own = point;
     for (int k = 0; k < 2; ++k) {
       pair.x[k] = x[k];
@@ -153,7 +151,7 @@ struct Extrapolation {
           const int n = j * width + i;
           from.add(sums, at, i, j, surfaces.q[n][k], double(surfaces.mass[n][k]));
         }
-      to.put(k, fit_motion(sums, from.lattice.h));
+      to.put(k, fit_motion(sums, from.view.lattice.h));
     }
   }
 
@@ -165,15 +163,15 @@ struct Extrapolation {
     SurfaceSums sums;
     for (int j = 0; j < width; ++j)
       for (int i = 0; i < width; ++i) {
-        const int node = first + j * lattice.nx + i, f = view.node_index[node];
+        const int node = first + j * view.lattice.nx + i, f = view.node_index[node];
         const int cracks = f < 0 ? 0 : held[f];
         add(sums, at, i, j, q + 4L * node, mass[node]);
         for (int field = 0; field < (1 << cracks) - 1; ++field) {
-          const long slot = long{lattice.nodes()} + extra[node] + field;
+          const long slot = long{view.lattice.nodes()} + extra[node] + field;
           add(sums, at, i, j, q + 4 * slot, mass[slot]);
         }
       }
-    return fit_motion(sums, lattice.h);
+    return fit_motion(sums, view.lattice.h);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/exec/parallel.hpp"
 #include "core/exec/timers.hpp"
 #include "core/state/make_state.hpp"
 #include "kernels/advance_grid.hpp"
@@ -143,7 +144,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(!again, "grid to particle", "",
       [before](Simulation& m) { grid_to_particle(m.space, m.plan, m.state, rule(m), !before); });
   add(again, "grid to particle, extrapolate again", "", [](Simulation& m) {
-    m.state.grid.again.zero();
+    exec::parallel_zero(m.space, "clear grid again", m.state.grid.again);
     grid_to_particle_again(m.space, m.plan, m.state, rule(m));
   });
   add(again && p.constraints, "boundary again", "boundary",

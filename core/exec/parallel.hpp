@@ -97,6 +97,16 @@ void parallel_for(const Space& space, const char* label, long n, const F& f) {
   });
 }
 
+/// Zeros all items of some arrays, each cut into as many pieces: those over the same things into the same ones.
+template <class... Arrays>
+void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
+  constexpr long piece = 1L << 19;  // bytes
+  const long pieces = ((arrays.size() * long{sizeof(*arrays.data())}) + ...) / piece + 1;
+  parallel_tasks(space, label, pieces, [=, ... view = arrays.view()](long c) {
+    (std::fill(view.data + view.size * c / pieces, view.data + view.size * (c + 1) / pieces, 0), ...);
+  });
+}
+
 /// Sum over i in [0, n) of what f(i, sum) adds to its argument, T being default-constructible to zero and having +=.
 /// Chunks are summed in order: the result is the same on any number of threads.
 template <class T, class F>

@@ -47,6 +47,8 @@ struct Plan {
   bool averaged() const { return update == StressUpdate::usavg; }
   bool extrapolate_again() const { return update == StressUpdate::musl || update == StressUpdate::usavg; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
+  /// From the third order on, a product with the full mass matrix costs less than passes over the particles.
+  bool full_mass() const { return higher_order() && order > 2; }
   bool keeps_F() const { return law != LawChoice::linear_elastic; }
   bool keeps_J() const { return law == LawChoice::linear_elastic; }
   bool needs_contact_sums() const { return contact_volume || contact_position || contact_area; }

@@ -47,7 +47,7 @@ double bytes_of_node(const Plan& p, double real) {
     vectors += 1;
   if (p.higher_order() && p.order > 1)
     vectors += 3;
-  double bytes = real * (1 + 4 * vectors);
+  double bytes = real * (1 + 4 * vectors + (p.full_mass() ? full_mass_entries : 0));
   if (p.constraints)
     bytes += sizeof(int);
   if (p.contact || p.fracture)

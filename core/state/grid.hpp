@@ -40,17 +40,21 @@ struct Lattice {
 /// Throws Error (bad input) if the box is no whole number of cells or too large to number.
 Lattice make_lattice(Vec2 lower, Vec2 upper, double cell);
 
+/// Entries of the full mass matrix (kernels/full_mass.hpp) that a node holds, and one that takes nothing.
+inline constexpr int full_mass_entries = 16;
+
 /// Node data. All node vectors are groups of four, so that one kernel serves them all. After particle-to-grid q holds
 /// [px py fx fy], after the grid is advanced [vx vy ax ay].
 template <class Real>
 struct Grid {
   Lattice lattice;
-  exec::Array<Real> mass;   ///< [slots]
-  exec::Array<Real> q;      ///< [4 slots]
-  exec::Array<Real> again;  ///< [4 slots] [px py . .], then [vx vy . .], of the second extrapolation (MUSL, USAVG)
-  exec::Array<Real> high;   ///< [4 slots] [vx vy . .], higher-order velocity (XPIC, FMPM)
-  exec::Array<Real> term;   ///< [4 slots] one term of the higher-order series
-  exec::Array<Real> next;   ///< [4 slots] the term after it
+  exec::Array<Real> mass;       ///< [slots]
+  exec::Array<Real> q;          ///< [4 slots]
+  exec::Array<Real> again;      ///< [4 slots] [px py . .], then [vx vy . .], of the second extrapolation (MUSL, USAVG)
+  exec::Array<Real> high;       ///< [4 slots] [vx vy . .], higher-order velocity (XPIC, FMPM)
+  exec::Array<Real> term;       ///< [4 slots] one term of the higher-order series
+  exec::Array<Real> next;       ///< [4 slots] the term after it
+  exec::Array<Real> full_mass;  ///< [full_mass_entries nodes] see kernels/full_mass.hpp
 
   int slots() const { return static_cast<int>(mass.size()); }
 };

@@ -180,6 +180,8 @@ void size_grid(const Plan& plan, State<Real, 2>& s) {
   if (plan.higher_order() && plan.order > 1)
     for (auto* a : {&s.grid.high, &s.grid.term, &s.grid.next})
       resize(*a, 4);
+  if (plan.full_mass())
+    s.grid.full_mass.resize(long{full_mass_entries} * s.grid.lattice.nodes());
 }
 
 template <class Real>
@@ -209,6 +211,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("grid: momentum and force", s.grid.q);
   add("grid: second extrapolation", s.grid.again);
   add("grid: higher orders", s.grid.high, s.grid.term, s.grid.next);
+  add("grid: full mass", s.grid.full_mass);
   ArrayReport points{"cracks: points", 0, 0};
   s.cracks.each_point_array([&](const auto& a) {
     points.items += a.size();

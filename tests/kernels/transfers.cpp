@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "core/scene/names.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/simulation.hpp"
 #include "kernels/sort_particles.hpp"
@@ -191,6 +192,41 @@ TEST(Transfers, FollowTheirMatrixFormulas) {
         EXPECT_LT(apart(places(m), plus(plus(d.X, dt, d.S * after), -0.5 * dt * dt, Sa)), 1e-13 * 8);
         EXPECT_GT(apart(expected, d.V), 0.01);
       }
+}
+
+/// A solid on a crack that runs through moves as if there were none on the other side, in every order.
+TEST(Transfers, KeepToTheirSideOfACrack) {
+  const exec::Space space;
+  const auto after_a_step = [&](const Scene& s) {
+    Simulation m(s, space);
+    auto& p = m.state.particles;
+    for (int i = 0; i < p.count(); ++i)
+      for (int axis : {0, 1})
+        p.v[axis][i] = std::sin(7.3 * p.id[i] + axis);
+    m.step();
+    return velocities(m);
+  };
+  for (const ShapeFunction shape : shapes)
+    for (const int order : {2, 3, 6}) {
+      Scene alone = block_scene(shape, Transfer::fmpm, order);
+      alone.bodies[0].region = Rectangle{{0, 0}, {4, 1.5}};
+      Scene beside = alone;
+      beside.bodies.push_back(alone.bodies[0]);
+      beside.bodies[1].region = Rectangle{{0, 1.5}, {4, 3}};
+      CrackLine crack;
+      crack.name = "crack";
+      crack.points = {{-1, 1.5}, {5, 1.5}};
+      beside.cracks = {crack};
+      beside.contact.law = ContactLaw::ignored;
+      const Column one = after_a_step(alone);
+      Column both = after_a_step(beside);
+      both.resize(one.size());
+      EXPECT_LT(apart(one, both), 1e-13 * largest(one)) << name_of(shape) << " " << order;
+      beside.cracks.clear();
+      both = after_a_step(beside);
+      both.resize(one.size());
+      EXPECT_GT(apart(one, both), 0.01) << "without the crack";
+    }
 }
 
 /// S+ S leaves constants alone and S+ S S+ is what smoothing once more means: the series telescopes,
