@@ -54,4 +54,16 @@ decltype(auto) with_flag(bool flag, F&& f) {
   return flag ? f(std::true_type{}) : f(std::false_type{});
 }
 
+/// The same for several flags.
+template <class F>
+decltype(auto) with_flags(F&& f) {
+  return f();
+}
+template <class F, class... More>
+decltype(auto) with_flags(F&& f, bool flag, More... more) {
+  return with_flag(flag, [&](auto one) -> decltype(auto) {
+    return with_flags([&](auto... rest) -> decltype(auto) { return f(one, rest...); }, more...);
+  });
+}
+
 }  // namespace riven

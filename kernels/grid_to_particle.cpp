@@ -27,27 +27,34 @@ struct MotionLanes {
   alignas(64) Real vx[exec::lanes], vy[exec::lanes], ax[exec::lanes], ay[exec::lanes], hx[exec::lanes], hy[exec::lanes];
 };
 
+template <class Real>
+RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const Gathered<Real>& updated, const Gathered<Real>& handed) {
+  m.vx[k] = updated.value[0];
+  m.vy[k] = updated.value[1];
+  m.ax[k] = updated.value[2];
+  m.ay[k] = updated.value[3];
+  m.hx[k] = handed.value[0];
+  m.hy[k] = handed.value[1];
+}
+
 template <bool Gradient, bool High, class Real, class Shape, class Slots>
 RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
                                 Slots slots, bool high_gradient, MotionLanes<Real>& m, GradientLanes<Real>& g) {
-  const auto read = [&](const Real* from) RIVEN_LANE { return gather_from<Gradient>(w, k, from, nx, slots); };
-  const Gathered<Real> a = read(q);
-  m.vx[k] = a.value[0];
-  m.vy[k] = a.value[1];
-  m.ax[k] = a.value[2];
-  m.ay[k] = a.value[3];
   if constexpr (High) {
-    const Gathered<Real> b = read(high);
-    m.hx[k] = b.value[0];
-    m.hy[k] = b.value[1];
-    if constexpr (Gradient)
-      g.set(k, high_gradient ? b : a);
-  } else {
-    m.hx[k] = a.value[0];
-    m.hy[k] = a.value[1];
-    if constexpr (Gradient)
-      g.set(k, a);
+    if (Gradient && high_gradient) {
+      const Gathered<Real> handed = gather_from<true>(w, k, high, nx, slots);
+      set_motion(m, k, gather_from<false>(w, k, q, nx, slots), handed);
+      g.set(k, handed);
+      return;
+    }
   }
+  const Gathered<Real> updated = gather_from<Gradient>(w, k, q, nx, slots);
+  if constexpr (High)
+    set_motion(m, k, updated, gather_from<false>(w, k, high, nx, slots));
+  else
+    set_motion(m, k, updated, updated);
+  if constexpr (Gradient)
+    g.set(k, updated);
 }
 
 /// Numbers of one step, the same for every particle.

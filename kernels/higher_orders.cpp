@@ -74,40 +74,33 @@ void build_full_mass(const exec::Space& space, State<Real, 2>& s) {
                        });
 }
 
-/// One step of the series.
-template <class Real>
-struct Term {
-  const Real* term;  ///< [4 slots] velocities; of further numbers nothing is taken
-  bool first, last;  ///< whether no term has been summed before this one, and whether the one after it is summed, too
-  bool passes;       ///< particles have added to Grid::next
-};
-
-/// high += term, and next = term - m^-1 (next + M term) for the term after it.
-template <bool Full, class Real>
-void find_term(const exec::Space& space, State<Real, 2>& s, const Term<Real>& now) {
+/// One step of the series: high += term, and next = term - m^-1 (next + M term) for the term after it. `First`: high
+/// begins with this term. `Last`: it takes the one after it, too. Without `Full` there is no M, without `Passes` no
+/// particle has added to `next`.
+template <bool First, bool Last, bool Full, bool Passes, class Real>
+void find_term(const exec::Space& space, State<Real, 2>& s, const Real* term) {
   Grid<Real>& g = s.grid;
   const Real least = Real(mass_cutoff(s));
   const FullMass<Real> full{g.full_mass.data(), g.lattice.nx};
   const long inside = 2L * g.lattice.nx + 2, end = g.lattice.nodes() - inside;  // ghosts, without mass, lie outside
-  exec::parallel_for(
-      space, "higher orders: term", g.slots(),
-      [=, mass = g.mass.data(), high = g.high.data(), next = g.next.data()](long n) {
-        const Quad<Real> term{now.term[4 * n], now.term[4 * n + 1], Real(0), Real(0)};
-        Quad<Real> smoothed{};
-        if (now.passes)
-          smoothed = quad_at<Real>(next + 4 * n);
-        if (Full && n >= inside && n < end && mass[n] > least)
-          smoothed += full.times(now.term, n);
-        const Real part = mass[n] > least ? Real(-1) / mass[n] : Real(0);
-        const Quad<Real> after = term + Quad<Real>{part * smoothed[0], part * smoothed[1], Real(0), Real(0)};
-        quad_at<Real>(next + 4 * n) = after;
-        Quad<Real> sum = term;
-        if (!now.first)
-          sum += quad_at<Real>(high + 4 * n);
-        if (now.last)
-          sum += after;
-        quad_at<Real>(high + 4 * n) = sum;
-      });
+  exec::parallel_for(space, "higher orders: term", g.slots(),
+                     [=, mass = g.mass.data(), high = g.high.data(), next = g.next.data()](long n) {
+                       const Quad<Real> t = quad_at<Real>(term + 4 * n);
+                       Quad<Real> smoothed{};
+                       if constexpr (Passes)
+                         smoothed = quad_at<Real>(next + 4 * n);
+                       if (Full && n >= inside && n < end && mass[n] > least)
+                         smoothed += full.times(term, n);
+                       const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
+                       const Quad<Real> after = t + (-inverse) * smoothed;
+                       quad_at<Real>(next + 4 * n) = after;
+                       Quad<Real> sum = t;
+                       if constexpr (!First)
+                         sum += quad_at<Real>(high + 4 * n);
+                       if constexpr (Last)
+                         sum += after;
+                       quad_at<Real>(high + 4 * n) = sum;
+                     });
 }
 
 /// v - dt a, as before the momentum update.
@@ -134,13 +127,18 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
     if (full)
       build_full_mass<Shape>(space, s);
     for (int j = 1; j < plan.order; ++j) {
-      const bool fresh = j == 1 && plan.transfer == Transfer::fmpm, last = j + 1 == plan.order;
-      const Term<Real> now{fresh ? g.q.data() : g.term.data(), j == 1, last && !plan.constraints, passes};
+      const bool given = j == 1 && plan.transfer == Transfer::fmpm, last = j + 1 == plan.order && !plan.constraints;
+      const Real* term = given ? g.q.data() : g.term.data();
       if (passes) {
         exec::parallel_zero(space, "clear term", g.next);
-        with_flag(full, [&](auto rest) { smooth<Shape, decltype(rest)::value>(space, plan, s, now.term); });
+        with_flag(full, [&](auto rest) { smooth<Shape, decltype(rest)::value>(space, plan, s, term); });
       }
-      with_flag(full, [&](auto product) { find_term<decltype(product)::value>(space, s, now); });
+      with_flags(
+          [&](auto is_first, auto is_last, auto has_full, auto has_passes) {
+            find_term<decltype(is_first)::value, decltype(is_last)::value, decltype(has_full)::value,
+                      decltype(has_passes)::value>(space, s, term);
+          },
+          j == 1, last, full, passes);
       if (plan.constraints)
         prescribe_velocities(space, s, Stage::term);
       g.term.swap(g.next);

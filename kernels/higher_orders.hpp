@@ -1,8 +1,8 @@
 // Higher-order grid velocities of XPIC(k) and FMPM(k) (Hammerquist and Nairn 2017; Nairn and Hammerquist 2021): with S
 // from grid to particles and S+ = m^-1 S^T M back, on all (node, field) pairs,
 //   v(k) = sum_{j<k} (I - S+ S)^j v(1),   v(1) = m^-1 p  (XPIC: before the momentum update, FMPM: after it).
-// Terms vanish where velocities are prescribed, so that the sum keeps them. From the third order on S^T M S is built once
-// a step (full_mass.hpp), but for the particles that see a node across a crack.
+// Terms vanish where velocities are prescribed, so that the sum keeps them. From the third order on S^T M S is built
+// once a step (full_mass.hpp), but for the particles that see a node across a crack.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
