@@ -93,6 +93,8 @@ class Run {
       }
       while (!m_.finished())
         step();
+      if (m_.plan.growth)
+        fragments_ = find_fragments(m_);
     } catch (const Error& e) {
       progress_->finish();
       if (e.code() != Exit::unstable)
@@ -242,8 +244,7 @@ class Run {
     s.probes = record_->probes();
     s.retries = so_far_.retries;
     s.between_steps = between_;
-    if (m_.plan.growth && s.status != "unstable")
-      s.fragments = find_fragments(m_);
+    s.fragments = fragments_;
     write_summary(options_.folder / "summary.json", s);
     return s;
   }
@@ -260,6 +261,7 @@ class Run {
   std::optional<Progress> progress_;
   StopRequest stop_;
   std::array<bool, watched_figures> said_{};  ///< which figures have been beyond their warning limits
+  std::vector<Fragment> fragments_;           ///< at the end of the run
   double start_ = exec::Stopwatch::now();
   enum : size_t { monitors, history, frames, checkpoints };
   std::vector<Summary::Task> between_{

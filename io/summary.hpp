@@ -91,7 +91,7 @@ struct Summary {
   std::vector<Tip> tips;
   std::vector<Value> probes;
   std::vector<Crack> cracks;
-  std::vector<Fragment> fragments;  ///< where cracks grow: of all solids, the heaviest first
+  std::vector<Fragment> fragments;  ///< where cracks grow and the run is done: of all solids, the heaviest first
   std::vector<Reaction> reactions;
 };
 

@@ -1,8 +1,8 @@
 // The full mass matrix of the nodes' plain fields,
 //   M_ij = sum_p m_p S_ip S_jp,
-// of which m_i = sum_j M_ij are the lumped masses. Two passes over the particles, from grid to particles and back, are
-// one product with it (S^T M S in higher_orders.hpp); with several orders it is cheaper to build it once. It is
-// symmetric, and each node holds the entries of its row and of the two rows after it:
+// of which m_i = sum_j M_ij are the lumped masses. A pass over the particles that takes velocities from the grid and
+// momenta back is a product with it (S^T M S in higher_orders.hpp); for several of them it is cheaper to build it. It
+// is symmetric, and each node holds the entries of its row and of the two rows after it:
 //   of (i, j) with (i-2 .. i+2, j), (i-2 .. i+2, j+1) and (i-2 .. i+2, j+2).
 #pragma once
 #include "core/math/quad.hpp"
