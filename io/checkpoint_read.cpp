@@ -164,7 +164,8 @@ RunSoFar CheckpointFile::restore(SimulationOf<Real>& m) const {
   return run;
 }
 
-template RunSoFar CheckpointFile::restore(SimulationOf<double>&) const;
-template RunSoFar CheckpointFile::restore(SimulationOf<float>&) const;
+#define RIVEN_RESTORE(Real) template RunSoFar CheckpointFile::restore(SimulationOf<Real>&) const;
+RIVEN_EACH_REAL(RIVEN_RESTORE)
+#undef RIVEN_RESTORE
 
 }  // namespace riven

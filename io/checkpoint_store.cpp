@@ -95,7 +95,8 @@ void CheckpointStore::write(const SimulationOf<Real>& m, const RunSoFar& so_far)
   last_ = exec::Stopwatch::now();
 }
 
-template void CheckpointStore::write(const SimulationOf<double>&, const RunSoFar&);
-template void CheckpointStore::write(const SimulationOf<float>&, const RunSoFar&);
+#define RIVEN_CHECKPOINT_STORE(Real) template void CheckpointStore::write(const SimulationOf<Real>&, const RunSoFar&);
+RIVEN_EACH_REAL(RIVEN_CHECKPOINT_STORE)
+#undef RIVEN_CHECKPOINT_STORE
 
 }  // namespace riven

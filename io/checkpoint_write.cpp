@@ -94,9 +94,10 @@ void write_checkpoint(const std::filesystem::path& path, const SimulationOf<Real
   });
 }
 
-template void write_checkpoint(const std::filesystem::path&, const SimulationOf<double>&, const RunSoFar&,
-                               const std::function<void()>&);
-template void write_checkpoint(const std::filesystem::path&, const SimulationOf<float>&, const RunSoFar&,
-                               const std::function<void()>&);
+#define RIVEN_WRITE_CHECKPOINT(Real)                                                                       \
+  template void write_checkpoint(const std::filesystem::path&, const SimulationOf<Real>&, const RunSoFar&, \
+                                 const std::function<void()>&);
+RIVEN_EACH_REAL(RIVEN_WRITE_CHECKPOINT)
+#undef RIVEN_WRITE_CHECKPOINT
 
 }  // namespace riven

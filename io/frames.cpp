@@ -107,7 +107,8 @@ int assemble_frames(const fs::path& folder) {
   return particles;
 }
 
-template void FrameWriter::write(double, const Particles<double, 2>&, const Cracks&);
-template void FrameWriter::write(double, const Particles<float, 2>&, const Cracks&);
+#define RIVEN_FRAMES(Real) template void FrameWriter::write(double, const Particles<Real, 2>&, const Cracks&);
+RIVEN_EACH_REAL(RIVEN_FRAMES)
+#undef RIVEN_FRAMES
 
 }  // namespace riven

@@ -89,7 +89,8 @@ PolyData particle_poly(const Particles<Real, 2>& p, const Scene& scene) {
   return d;
 }
 
-template PolyData particle_poly(const Particles<double, 2>&, const Scene&);
-template PolyData particle_poly(const Particles<float, 2>&, const Scene&);
+#define RIVEN_PARTICLE_POLY(Real) template PolyData particle_poly(const Particles<Real, 2>&, const Scene&);
+RIVEN_EACH_REAL(RIVEN_PARTICLE_POLY)
+#undef RIVEN_PARTICLE_POLY
 
 }  // namespace riven

@@ -56,7 +56,8 @@ CauchyStress ParticleStress<Real>::cauchy(long i) const {
   return {scale * s.xx, scale * s.yy, scale * law(i).stress_zz(s), scale * s.xy};
 }
 
-template class ParticleStress<double>;
-template class ParticleStress<float>;
+#define RIVEN_PARTICLE_STRESS(Real) template class ParticleStress<Real>;
+RIVEN_EACH_REAL(RIVEN_PARTICLE_STRESS)
+#undef RIVEN_PARTICLE_STRESS
 
 }  // namespace riven

@@ -158,8 +158,7 @@ std::vector<double> Probes::read(const SimulationOf<Real>& m) const {
 #define RIVEN_PROBES(Real)                            \
   template Probes::Probes(const SimulationOf<Real>&); \
   template std::vector<double> Probes::read(const SimulationOf<Real>&) const;
-RIVEN_PROBES(double)
-RIVEN_PROBES(float)
+RIVEN_EACH_REAL(RIVEN_PROBES)
 #undef RIVEN_PROBES
 
 }  // namespace riven

@@ -98,7 +98,8 @@ std::vector<HistoryColumn> Recorder<Real>::columns() const {
   return c;
 }
 
-template class Recorder<double>;
-template class Recorder<float>;
+#define RIVEN_RECORDER(Real) template class Recorder<Real>;
+RIVEN_EACH_REAL(RIVEN_RECORDER)
+#undef RIVEN_RECORDER
 
 }  // namespace riven

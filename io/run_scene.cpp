@@ -275,7 +275,8 @@ Summary run_scene(SimulationOf<Real>& m, const RunOptions& options) {
   return Run<Real>(m, options).all();
 }
 
-template Summary run_scene(SimulationOf<double>&, const RunOptions&);
-template Summary run_scene(SimulationOf<float>&, const RunOptions&);
+#define RIVEN_RUN_SCENE(Real) template Summary run_scene(SimulationOf<Real>&, const RunOptions&);
+RIVEN_EACH_REAL(RIVEN_RUN_SCENE)
+#undef RIVEN_RUN_SCENE
 
 }  // namespace riven

@@ -73,7 +73,8 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   return out;
 }
 
-template Summary summarize(const SimulationOf<double>&, double);
-template Summary summarize(const SimulationOf<float>&, double);
+#define RIVEN_SUMMARIZE(Real) template Summary summarize(const SimulationOf<Real>&, double);
+RIVEN_EACH_REAL(RIVEN_SUMMARIZE)
+#undef RIVEN_SUMMARIZE
 
 }  // namespace riven

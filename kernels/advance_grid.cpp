@@ -94,8 +94,7 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
   template void momenta_to_velocities(const exec::Space&, State<Real, 2>&, Real*); \
   template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);   \
   template GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double);
-RIVEN_ADVANCE_GRID(double)
-RIVEN_ADVANCE_GRID(float)
+RIVEN_EACH_REAL(RIVEN_ADVANCE_GRID)
 #undef RIVEN_ADVANCE_GRID
 
 }  // namespace riven

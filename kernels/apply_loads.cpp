@@ -185,8 +185,7 @@ void settle_loads(State<Real, 2>& s) {
   template void make_loads(const Scene&, State<Real, 2>&);                     \
   template void apply_loads(const exec::Space&, const Plan&, State<Real, 2>&); \
   template void settle_loads(State<Real, 2>&);
-RIVEN_APPLY_LOADS(double)
-RIVEN_APPLY_LOADS(float)
+RIVEN_EACH_REAL(RIVEN_APPLY_LOADS)
 #undef RIVEN_APPLY_LOADS
 
 }  // namespace riven

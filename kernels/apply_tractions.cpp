@@ -109,8 +109,7 @@ void settle_tractions(const std::vector<PointForces>& forces, State<Real, 2>& s)
   template void apply_tractions<UGimp, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);   \
   template void apply_tractions<BSpline, Real>(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&); \
   template void settle_tractions(const std::vector<PointForces>&, State<Real, 2>&);
-RIVEN_TRACTIONS(double)
-RIVEN_TRACTIONS(float)
+RIVEN_EACH_REAL(RIVEN_TRACTIONS)
 #undef RIVEN_TRACTIONS
 
 }  // namespace riven

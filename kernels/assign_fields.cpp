@@ -202,12 +202,9 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
   template void determine_fields<Shape, Real>(const exec::Space&, const Particles<Real, 2>&,                \
                                               const DomainSetting<Real, 2>*, const Lattice&, const Cracks&, \
                                               CrackFields&, const double*);
-RIVEN_DETERMINE(Linear, double)
-RIVEN_DETERMINE(UGimp, double)
-RIVEN_DETERMINE(BSpline, double)
-RIVEN_DETERMINE(Linear, float)
-RIVEN_DETERMINE(UGimp, float)
-RIVEN_DETERMINE(BSpline, float)
+#define RIVEN_DETERMINE_EACH(Real) RIVEN_EACH_SHAPE(RIVEN_DETERMINE, Real)
+RIVEN_EACH_REAL(RIVEN_DETERMINE_EACH)
+#undef RIVEN_DETERMINE_EACH
 #undef RIVEN_DETERMINE
 
 }  // namespace riven

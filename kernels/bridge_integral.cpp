@@ -66,8 +66,7 @@ void add_bridges(const State<Real, 2>& s, const std::vector<TipBridge>& bridges,
 
 #define RIVEN_BRIDGES(Real) \
   template void add_bridges(const State<Real, 2>&, const std::vector<TipBridge>&, const TipPlaces&, TipTask&);
-RIVEN_BRIDGES(double)
-RIVEN_BRIDGES(float)
+RIVEN_EACH_REAL(RIVEN_BRIDGES)
 #undef RIVEN_BRIDGES
 
 }  // namespace riven

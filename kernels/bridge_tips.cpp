@@ -176,8 +176,7 @@ void bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactStag
 #define RIVEN_BRIDGE_TIPS(Real)                                                                   \
   template void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&); \
   template void bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage, FieldImpulses&);
-RIVEN_BRIDGE_TIPS(double)
-RIVEN_BRIDGE_TIPS(float)
+RIVEN_EACH_REAL(RIVEN_BRIDGE_TIPS)
 #undef RIVEN_BRIDGE_TIPS
 
 }  // namespace riven

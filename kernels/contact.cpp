@@ -392,8 +392,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
   template void contact(const exec::Space&, Grid<Real>&, const CrackFields&, const Cracks&, const ContactRules&, \
                         ContactStage, double, const ContactParticles<Real>&, ContactSums&, FieldImpulses&,       \
                         ContactReport&);
-RIVEN_CONTACT(double)
-RIVEN_CONTACT(float)
+RIVEN_EACH_REAL(RIVEN_CONTACT)
 #undef RIVEN_CONTACT
 
 }  // namespace riven

@@ -85,8 +85,7 @@ void watch_contact(SimulationOf<Real>& m) {
   template void contact_on_high(SimulationOf<Real>&);             \
   template void contact_after_extrapolation(SimulationOf<Real>&); \
   template void watch_contact(SimulationOf<Real>&);
-RIVEN_TASKS(double)
-RIVEN_TASKS(float)
+RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
 
 }  // namespace riven

@@ -105,8 +105,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
   template NodeSums<Real> node_sums(const ContactParticles<Real>&, const Lattice&, const CrackFields&, ContactSums&); \
   template void contact_sums(const exec::Space&, const ContactSumsChoice&, const ContactParticles<Real>&,             \
                              const Grid<Real>&, const CrackFields&, const Cracks&, double, ContactSums&);
-RIVEN_SUMS(float)
-RIVEN_SUMS(double)
+RIVEN_EACH_REAL(RIVEN_SUMS)
 #undef RIVEN_SUMS
 
 }  // namespace riven

@@ -58,8 +58,7 @@ void move_with_grid(SimulationOf<Real>& m) {
   template void find_fields(SimulationOf<Real>&); \
   template void load_faces(SimulationOf<Real>&);  \
   template void move_with_grid(SimulationOf<Real>&);
-RIVEN_TASKS(double)
-RIVEN_TASKS(float)
+RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
 
 }  // namespace riven

@@ -9,6 +9,7 @@
 #pragma once
 #include <type_traits>
 
+#include "core/error.hpp"
 #include "core/laws/elastic.hpp"
 #include "core/math/shape.hpp"
 #include "core/plan/plan.hpp"
@@ -25,7 +26,13 @@ inline constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Preci
 
 template <class F>
 decltype(auto) with_precision(Precision precision, F&& f) {
-  return precision == Precision::as_float ? f(Type<float>{}) : f(Type<double>{});
+#if RIVEN_FLOAT
+  if (precision == Precision::as_float)
+    return f(Type<float>{});
+#endif
+  if (precision != Precision::as_double)
+    fail({Exit::bad_input, "this build has no single precision (RIVEN_FLOAT)", "solver.precision", {}, {}, {}});
+  return f(Type<double>{});
 }
 
 template <class F>

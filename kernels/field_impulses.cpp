@@ -57,8 +57,7 @@ ImpulseEnergy impulse_energy(const exec::Space& space, const Grid<Real>& grid, c
 #define RIVEN_IMPULSES(Real)                                                                                       \
   template ImpulseEnergy impulse_energy(const exec::Space&, const Grid<Real>&, const CrackFields&, FieldImpulses&, \
                                         const ImpulseRule&, double);
-RIVEN_IMPULSES(double)
-RIVEN_IMPULSES(float)
+RIVEN_EACH_REAL(RIVEN_IMPULSES)
 #undef RIVEN_IMPULSES
 
 }  // namespace riven

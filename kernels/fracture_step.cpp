@@ -285,8 +285,7 @@ void find_j_and_k(SimulationOf<Real>& m) {
   template void bridge_on_high(SimulationOf<Real>&);             \
   template void bridge_after_extrapolation(SimulationOf<Real>&); \
   template void find_j_and_k(SimulationOf<Real>&);
-RIVEN_TASKS(double)
-RIVEN_TASKS(float)
+RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
 
 }  // namespace riven

@@ -98,7 +98,8 @@ std::vector<Fragment> find_fragments(SimulationOf<Real>& m) {
   return with_shape(m.plan.shape, [&](auto shape) { return fragments<typename decltype(shape)::type>(m.state); });
 }
 
-template std::vector<Fragment> find_fragments(SimulationOf<double>&);
-template std::vector<Fragment> find_fragments(SimulationOf<float>&);
+#define RIVEN_FRAGMENTS(Real) template std::vector<Fragment> find_fragments(SimulationOf<Real>&);
+RIVEN_EACH_REAL(RIVEN_FRAGMENTS)
+#undef RIVEN_FRAGMENTS
 
 }  // namespace riven

@@ -222,8 +222,7 @@ void grid_to_particle_again(const exec::Space& space, const Plan& plan, State<Re
 #define RIVEN_GRID_TO_PARTICLE(Real)                                                                           \
   template void grid_to_particle(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&, bool); \
   template void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
-RIVEN_GRID_TO_PARTICLE(double)
-RIVEN_GRID_TO_PARTICLE(float)
+RIVEN_EACH_REAL(RIVEN_GRID_TO_PARTICLE)
 #undef RIVEN_GRID_TO_PARTICLE
 
 }  // namespace riven

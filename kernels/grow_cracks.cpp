@@ -231,7 +231,8 @@ void grow_cracks(SimulationOf<Real>& m) {
   }
 }
 
-template void grow_cracks(SimulationOf<double>&);
-template void grow_cracks(SimulationOf<float>&);
+#define RIVEN_GROW_CRACKS(Real) template void grow_cracks(SimulationOf<Real>&);
+RIVEN_EACH_REAL(RIVEN_GROW_CRACKS)
+#undef RIVEN_GROW_CRACKS
 
 }  // namespace riven

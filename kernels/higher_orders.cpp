@@ -152,8 +152,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
 }
 
 #define RIVEN_HIGHER_ORDERS(Real) template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);
-RIVEN_HIGHER_ORDERS(double)
-RIVEN_HIGHER_ORDERS(float)
+RIVEN_EACH_REAL(RIVEN_HIGHER_ORDERS)
 #undef RIVEN_HIGHER_ORDERS
 
 }  // namespace riven

@@ -41,9 +41,10 @@ void advance_jumps(const exec::Space& space, ShapeFunction shape, const exec::Ar
   with_shape(shape, [&](auto type) { run<typename decltype(type)::type>(space, domains, grid, fields, dt, cracks); });
 }
 
-template void advance_jumps(const exec::Space&, ShapeFunction, const exec::Array<DomainSetting<float, 2>>&,
-                            const Grid<float>&, const CrackFields&, double, Cracks&);
-template void advance_jumps(const exec::Space&, ShapeFunction, const exec::Array<DomainSetting<double, 2>>&,
-                            const Grid<double>&, const CrackFields&, double, Cracks&);
+#define RIVEN_ADVANCE_JUMPS(Real)                                                                            \
+  template void advance_jumps(const exec::Space&, ShapeFunction, const exec::Array<DomainSetting<Real, 2>>&, \
+                              const Grid<Real>&, const CrackFields&, double, Cracks&);
+RIVEN_EACH_REAL(RIVEN_ADVANCE_JUMPS)
+#undef RIVEN_ADVANCE_JUMPS
 
 }  // namespace riven

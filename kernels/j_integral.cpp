@@ -262,8 +262,7 @@ void sum_around_tips(const exec::Space& space, const Plan& plan, const State<Rea
 
 #define RIVEN_J_INTEGRAL(Real) \
   template void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, std::vector<TipTask>&);
-RIVEN_J_INTEGRAL(double)
-RIVEN_J_INTEGRAL(float)
+RIVEN_EACH_REAL(RIVEN_J_INTEGRAL)
 #undef RIVEN_J_INTEGRAL
 
 }  // namespace riven

@@ -21,7 +21,8 @@ void make_derived(SimulationOf<Real>& m) {
   s.clock.limiter = s.clock.stable_limiter = "as before the restart";
 }
 
-template void make_derived(SimulationOf<double>&);
-template void make_derived(SimulationOf<float>&);
+#define RIVEN_MAKE_DERIVED(Real) template void make_derived(SimulationOf<Real>&);
+RIVEN_EACH_REAL(RIVEN_MAKE_DERIVED)
+#undef RIVEN_MAKE_DERIVED
 
 }  // namespace riven

@@ -202,12 +202,9 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
 #define RIVEN_MOVE(Shape, Real)                                                                                 \
   template void move_cracks<Shape, Real>(const exec::Space&, const Grid<Real>&, const CrackFields&, CrackRules, \
                                          double, Cracks&);
-RIVEN_MOVE(Linear, double)
-RIVEN_MOVE(UGimp, double)
-RIVEN_MOVE(BSpline, double)
-RIVEN_MOVE(Linear, float)
-RIVEN_MOVE(UGimp, float)
-RIVEN_MOVE(BSpline, float)
+#define RIVEN_MOVE_EACH(Real) RIVEN_EACH_SHAPE(RIVEN_MOVE, Real)
+RIVEN_EACH_REAL(RIVEN_MOVE_EACH)
+#undef RIVEN_MOVE_EACH
 #undef RIVEN_MOVE
 
 }  // namespace riven

@@ -80,8 +80,7 @@ void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>
 #define RIVEN_PARTICLE_TO_GRID(Real)                             \
   template void clear_grid(const exec::Space&, State<Real, 2>&); \
   template void particle_to_grid(const exec::Space&, const Plan&, State<Real, 2>&, bool, Vec2);
-RIVEN_PARTICLE_TO_GRID(double)
-RIVEN_PARTICLE_TO_GRID(float)
+RIVEN_EACH_REAL(RIVEN_PARTICLE_TO_GRID)
 #undef RIVEN_PARTICLE_TO_GRID
 
 }  // namespace riven

@@ -262,8 +262,7 @@ void settle_constraints(const Plan& plan, double early_impulse, State<Real, 2>& 
   template void list_constraints(const Plan&, State<Real, 2>&);                           \
   template void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double); \
   template void settle_constraints(const Plan&, double, State<Real, 2>&);
-RIVEN_PRESCRIBE_VELOCITIES(double)
-RIVEN_PRESCRIBE_VELOCITIES(float)
+RIVEN_EACH_REAL(RIVEN_PRESCRIBE_VELOCITIES)
 #undef RIVEN_PRESCRIBE_VELOCITIES
 
 }  // namespace riven

@@ -92,8 +92,7 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
   template void check_particles(const State<Real, 2>&);          \
   template long fastest_particle(const Particles<Real, 2>&);     \
   template void check_energy(const Plan&, const State<Real, 2>&);
-RIVEN_REPORT_TROUBLE(double)
-RIVEN_REPORT_TROUBLE(float)
+RIVEN_EACH_REAL(RIVEN_REPORT_TROUBLE)
 #undef RIVEN_REPORT_TROUBLE
 
 }  // namespace riven

@@ -110,8 +110,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
 #define RIVEN_SORT_PARTICLES(Real)               \
   template bool sort_due(const State<Real, 2>&); \
   template void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);
-RIVEN_SORT_PARTICLES(double)
-RIVEN_SORT_PARTICLES(float)
+RIVEN_EACH_REAL(RIVEN_SORT_PARTICLES)
 #undef RIVEN_SORT_PARTICLES
 
 }  // namespace riven

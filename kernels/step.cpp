@@ -241,9 +241,10 @@ double SimulationOf<Real>::early_impulse() const {
   return plan.transfer == Transfer::flip ? 0 : plan.transfer == Transfer::pic ? scene.pic_fraction : 1;
 }
 
-template std::vector<TaskOf<double>> assemble_step(const Scene&, const Plan&);
-template std::vector<TaskOf<float>> assemble_step(const Scene&, const Plan&);
-template class SimulationOf<double>;
-template class SimulationOf<float>;
+#define RIVEN_STEP(Real)                                                       \
+  template std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&); \
+  template class SimulationOf<Real>;
+RIVEN_EACH_REAL(RIVEN_STEP)
+#undef RIVEN_STEP
 
 }  // namespace riven

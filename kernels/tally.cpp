@@ -150,8 +150,7 @@ void book_particle_damping(const exec::Space& space, double damping, State<Real,
 #define RIVEN_TALLY(Real)                                                           \
   template void book_particle_damping(const exec::Space&, double, State<Real, 2>&); \
   template void tally(const exec::Space&, const Plan&, State<Real, 2>&);
-RIVEN_TALLY(double)
-RIVEN_TALLY(float)
+RIVEN_EACH_REAL(RIVEN_TALLY)
 #undef RIVEN_TALLY
 
 }  // namespace riven

@@ -76,8 +76,7 @@ void reduce_time_step(double factor, Clock& c) {
 #define RIVEN_TIME_STEP(Real)                                                             \
   template Speeds measure_speeds(const exec::Space&, const Plan&, const State<Real, 2>&); \
   template void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
-RIVEN_TIME_STEP(double)
-RIVEN_TIME_STEP(float)
+RIVEN_EACH_REAL(RIVEN_TIME_STEP)
 #undef RIVEN_TIME_STEP
 
 }  // namespace riven

@@ -162,12 +162,9 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
   template void trace_crossings<Shape, Real>(const exec::Space&, const Particles<Real, 2>&,                \
                                              const DomainSetting<Real, 2>*, const Lattice&, const Cracks&, \
                                              const double*, CrackFields&);
-RIVEN_TRACE(Linear, double)
-RIVEN_TRACE(UGimp, double)
-RIVEN_TRACE(BSpline, double)
-RIVEN_TRACE(Linear, float)
-RIVEN_TRACE(UGimp, float)
-RIVEN_TRACE(BSpline, float)
+#define RIVEN_TRACE_EACH(Real) RIVEN_EACH_SHAPE(RIVEN_TRACE, Real)
+RIVEN_EACH_REAL(RIVEN_TRACE_EACH)
+#undef RIVEN_TRACE_EACH
 #undef RIVEN_TRACE
 
 }  // namespace riven

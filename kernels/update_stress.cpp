@@ -144,8 +144,7 @@ void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Re
 #define RIVEN_UPDATE_STRESS(Real)                                                                 \
   template void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, Vec2); \
   template void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
-RIVEN_UPDATE_STRESS(double)
-RIVEN_UPDATE_STRESS(float)
+RIVEN_EACH_REAL(RIVEN_UPDATE_STRESS)
 #undef RIVEN_UPDATE_STRESS
 
 }  // namespace riven

@@ -103,7 +103,8 @@ void watch_figures(SimulationOf<Real>& m) {
   }
 }
 
-template void watch_figures(SimulationOf<double>&);
-template void watch_figures(SimulationOf<float>&);
+#define RIVEN_WATCH_FIGURES(Real) template void watch_figures(SimulationOf<Real>&);
+RIVEN_EACH_REAL(RIVEN_WATCH_FIGURES)
+#undef RIVEN_WATCH_FIGURES
 
 }  // namespace riven

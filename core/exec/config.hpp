@@ -21,6 +21,14 @@
 #define RIVEN_ONCE __attribute__((noinline))
 #endif
 
+// INSTANTIATE(Real) for each precision that is compiled. Float is half of what there is to compile: a build that is
+// only counted leaves it out.
+#if RIVEN_FLOAT
+#define RIVEN_EACH_REAL(INSTANTIATE) INSTANTIATE(double) INSTANTIATE(float)
+#else
+#define RIVEN_EACH_REAL(INSTANTIATE) INSTANTIATE(double)
+#endif
+
 #define RIVEN_PRAGMA(x) _Pragma(#x)
 
 namespace riven::exec {

@@ -128,4 +128,8 @@ inline constexpr int neighbours = [] {
   return n;
 }();
 
+// INSTANTIATE(Shape, Real) for each shape.
+#define RIVEN_EACH_SHAPE(INSTANTIATE, Real) \
+  INSTANTIATE(Linear, Real) INSTANTIATE(UGimp, Real) INSTANTIATE(BSpline, Real)
+
 }  // namespace riven

@@ -232,8 +232,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   template void make_state(const Scene&, const Plan&, State<Real, 2>&); \
   template void size_grid(const Plan&, State<Real, 2>&);                \
   template std::vector<ArrayReport> list_arrays(const State<Real, 2>&);
-RIVEN_MAKE_STATE(double)
-RIVEN_MAKE_STATE(float)
+RIVEN_EACH_REAL(RIVEN_MAKE_STATE)
 #undef RIVEN_MAKE_STATE
 
 }  // namespace riven
