@@ -146,12 +146,14 @@ class TipSummer {
     const Particles<Real, 2>& p = s_.particles;
     const size_t first = patch.asked, end = std::min(patch.lines.size(), first + static_cast<size_t>(lines));
     for (size_t k = first; k < end; ++k) {
-      const int at = patch.lines[k];
-      const auto ask = [at](const auto&... arrays) { (exec::prefetch_far(arrays.data() + at), ...); };
-      ask(p.x[0], p.x[1], p.v[0], p.v[1], p.F[0], p.F[1], p.F[2], p.F[3], p.stress[0], p.stress[1], p.stress[2], p.mass,
-          p.body, s_.fields.fields);
+      ask_for_line(patch.lines[k], p.x[0], p.x[1], p.v[0], p.v[1], p.F[0], p.F[1], p.F[2], p.F[3], p.stress[0],
+                   p.stress[1], p.stress[2], p.mass, p.body, s_.fields.fields);
     }
     patch.asked = end;
+  }
+  template <class... Arrays>
+  static RIVEN_INLINE void ask_for_line(int first, const Arrays&... arrays) {
+    (exec::prefetch_far(arrays.data() + first), ...);
   }
 
   void sum_chosen(TipTask& task, Chosen& chosen, Patch& next) const {

@@ -33,7 +33,7 @@
 
 namespace riven::exec {
 
-/// Asks for the data at p, which will be needed soon.
+/// Asks for data at p, needed soon. Functions that only ask are to be RIVEN_INLINE, or GCC drops the calls to them.
 RIVEN_INLINE void prefetch([[maybe_unused]] const void* p) {
 #if !defined(__CUDA_ARCH__)
   __builtin_prefetch(p);
