@@ -1,6 +1,7 @@
 // Checkpoints that cannot be trusted are refused with a reason, whatever happened to them, and what was good stays.
 #include "io/checkpoint.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
