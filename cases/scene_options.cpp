@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 void SceneOptions::add_to(CLI::App& command, bool required) {
   command.add_option("scene", scene, "a scene file, or the name of a shipped scene (riven cases)")->required(required);
   command.add_option("--set", set, "change a key of the scene, for example --set solver.cfl=0.3")->take_all();
-  command.add_option("--exec", exec, "where kernels run")->check(CLI::IsMember({"openmp", "stdpar", "serial"}));
+  command.add_option("--exec", exec, "where kernels run")->check(CLI::IsMember({"openmp", "stdpar", "serial", "cuda"}));
   command.add_option("--threads", threads, "number of threads; all cores unless said")->check(CLI::Range(1, 1024));
 }
 

@@ -1,60 +1,66 @@
 #include "kernels/advance_grid.hpp"
 
+#include <utility>
+
 #include "core/exec/parallel.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
 
 namespace riven {
 
-GridSums& GridSums::operator+=(const GridSums& o) {
-  mass += o.mass;
-  momentum += o.momentum;
-  moment += o.moment;
-  damping_work += o.damping_work;
-  damping_impulse += o.damping_impulse;
-  damping_torque += o.damping_torque;
-  return *this;
-}
+inline namespace RIVEN_SIDE {
 
 template <class Real>
-void momenta_to_velocities(const exec::Space& space, State<Real, 2>& s, Real* q) {
-  const Real* mass = s.grid.mass.data();
+void momenta_to_velocities(const exec::Space& space, State<Real, 2>& s, exec::Array<Real>& array) {
+  const Real* mass = exec::data(std::as_const(s.grid.mass));
+  Real* q = exec::data(array);
   const Real least = Real(mass_cutoff(s));
-  exec::parallel_for(space, "momenta to velocities", s.grid.slots(), [=](long n) {
+  exec::parallel_for(space, "momenta to velocities", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
     const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
     q[4 * n] *= inverse;
     q[4 * n + 1] *= inverse;
   });
 }
 
-template <class Real>
-void advance_grid(const exec::Space& space, State<Real, 2>& s, bool from_velocity, double damping) {
-  const Real* mass = s.grid.mass.data();
-  Real* q = s.grid.q.data();
+namespace {
+
+template <bool FromVelocity, class Real>
+void advance(const exec::Space& space, State<Real, 2>& s, double damping) {
+  const Real* mass = exec::data(std::as_const(s.grid.mass));
+  Real* q = exec::data(s.grid.q);
   const Real least = Real(mass_cutoff(s)), dt = Real(s.clock.dt), kappa = Real(damping);
-  with_flag(from_velocity, [&](auto has_velocity) {
-    exec::parallel_for(space, "advance grid", s.grid.slots(), [=](long n) {
-      const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
-      const Real scale = decltype(has_velocity)::value ? Real(1) : inverse;
-      const Real vx = q[4 * n] * scale, vy = q[4 * n + 1] * scale;
-      const Real ax = q[4 * n + 2] * inverse - kappa * vx, ay = q[4 * n + 3] * inverse - kappa * vy;
-      q[4 * n] = vx + ax * dt;
-      q[4 * n + 1] = vy + ay * dt;
-      q[4 * n + 2] = ax;
-      q[4 * n + 3] = ay;
-    });
+  exec::parallel_for(space, "advance grid", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
+    const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
+    const Real scale = FromVelocity ? Real(1) : inverse;
+    const Real vx = q[4 * n] * scale, vy = q[4 * n + 1] * scale;
+    const Real ax = q[4 * n + 2] * inverse - kappa * vx, ay = q[4 * n + 3] * inverse - kappa * vy;
+    q[4 * n] = vx + ax * dt;
+    q[4 * n + 1] = vy + ay * dt;
+    q[4 * n + 2] = ax;
+    q[4 * n + 3] = ay;
   });
 }
 
+}  // namespace
+
 template <class Real>
-GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double damping) {
-  const Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
-  const Lattice lattice = s.grid.lattice;
-  const double dt = s.clock.dt;
-  const int nodes = lattice.nodes();
-  const auto one = [=](long slot, Vec2 x) {
+void advance_grid(const exec::Space& space, State<Real, 2>& s, bool from_velocity, double damping) {
+  with_flag(from_velocity, [&](auto flag) { advance<decltype(flag)::value>(space, s, damping); });
+}
+
+namespace {
+
+/// What one slot of a node at x adds.
+template <class Real>
+struct SlotSums {
+  const Real *mass, *q;
+  double dt, damping;
+
+  RIVEN_FN GridSums operator()(long slot, Vec2 x) const {
     GridSums g;
     const double m = mass[slot];
+    if (!(m > 0))
+      return g;
     const Vec2 after{q[4 * slot], q[4 * slot + 1]}, a{q[4 * slot + 2], q[4 * slot + 3]};
     const Vec2 before = after - dt * a;
     g.mass = m;
@@ -64,37 +70,58 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
     g.damping_work = -0.5 * dot(g.damping_impulse, before + after);
     g.damping_torque = cross(x, g.damping_impulse);
     return g;
-  };
-  GridSums sums = exec::parallel_reduce<GridSums>(space, "grid sums", nodes, [=](long n) {
-    return mass[n] > 0 ? one(n, lattice.position(static_cast<int>(n))) : GridSums{};
+  }
+};
+
+}  // namespace
+
+template <class Real>
+GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double damping) {
+  const SlotSums<Real> one{exec::data(s.grid.mass), exec::data(s.grid.q), s.clock.dt, damping};
+  const Lattice lattice = s.grid.lattice;
+  GridSums sums = exec::parallel_reduce<GridSums>(space, "grid sums", lattice.nodes(), [=] RIVEN_KERNEL(long n) {
+    return one(n, lattice.position(static_cast<int>(n)));
   });
-  const FieldSlots slots(s.fields, nodes);
-  for (const NodeCracks& c : s.fields.nodes)
-    for (int f = 1; f < slots.count(c.node); ++f)
-      if (mass[slots.of(c.node, f)] > 0)
-        sums += one(slots.of(c.node, f), lattice.position(c.node));
+  const FieldSlots slots(s.fields, lattice.nodes());
+  const NodeCracks* flagged = exec::data(s.fields.nodes);
+  sums +=
+      exec::parallel_sum<GridSums>(space, "grid sums", s.fields.nodes.size(), [=] RIVEN_KERNEL(long n, GridSums& sum) {
+        const int node = flagged[n].node;
+        for (int f = 1; f < slots.count(node); ++f)
+          sum += one(slots.of(node, f), lattice.position(node));
+      });
+  if (damping == 0)
+    return sums;
   // Damping acted on what grips had made of velocities, which they hand to the accelerations later.
-  const Constraints& c = s.constraints;
-  for (long n = 0; n < c.list.size() && damping != 0; ++n)
-    for (int f = 0; f < slots.count(c.list[n].node); ++f) {
-      const long slot = slots.of(c.list[n].node, f);
-      const auto carried = [&](int axis) {
-        return c.list[n].owner[axis] >= c.first_grip() ? c.change[0][slots.component(n, f, axis)] : 0;
-      };
-      const Vec2 more = -damping * dt * Vec2{carried(0), carried(1)};
-      const Vec2 after{q[4 * slot], q[4 * slot + 1]}, a{q[4 * slot + 2], q[4 * slot + 3]};
-      sums.damping_impulse += more;
-      sums.damping_work -= dot(more, after - 0.5 * dt * a);
-      sums.damping_torque += cross(lattice.position(c.list[n].node), more);
-    }
+  const Constraint* list = exec::data(s.constraints.list);
+  const double* change = exec::data(s.constraints.change[0]);
+  const int first_grip = s.constraints.first_grip();
+  sums += exec::parallel_sum<GridSums>(
+      space, "grid sums", s.constraints.list.size(), [=] RIVEN_KERNEL(long n, GridSums& sum) {
+        const Constraint& c = list[n];
+        for (int f = 0; f < slots.count(c.node); ++f) {
+          const long slot = slots.of(c.node, f);
+          double carried[2] = {0, 0};
+          for (int axis = 0; axis < 2; ++axis)
+            if (c.owner[axis] >= first_grip)
+              carried[axis] = change[slots.component(n, f, axis)];
+          const Vec2 more = -one.damping * one.dt * Vec2{carried[0], carried[1]};
+          const Vec2 after{one.q[4 * slot], one.q[4 * slot + 1]}, a{one.q[4 * slot + 2], one.q[4 * slot + 3]};
+          sum.damping_impulse += more;
+          sum.damping_work -= dot(more, after - 0.5 * one.dt * a);
+          sum.damping_torque += cross(lattice.position(c.node), more);
+        }
+      });
   return sums;
 }
 
-#define RIVEN_ADVANCE_GRID(Real)                                                   \
-  template void momenta_to_velocities(const exec::Space&, State<Real, 2>&, Real*); \
-  template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);   \
+#define RIVEN_ADVANCE_GRID(Real)                                                                \
+  template void momenta_to_velocities(const exec::Space&, State<Real, 2>&, exec::Array<Real>&); \
+  template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);                \
   template GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double);
 RIVEN_EACH_REAL(RIVEN_ADVANCE_GRID)
 #undef RIVEN_ADVANCE_GRID
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

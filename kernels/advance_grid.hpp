@@ -6,6 +6,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Sums that only scenes with body forces or grid damping need.
 struct GridSums {
   double mass = 0;            ///< kg
@@ -14,12 +16,20 @@ struct GridSums {
   double damping_work = 0;    ///< taken by grid damping in this step, J
   Vec2 damping_impulse;       ///< given to the body by grid damping, N s
   double damping_torque = 0;  ///< about the origin, N m s
-  GridSums& operator+=(const GridSums& o);
+  RIVEN_FN GridSums& operator+=(const GridSums& o) {
+    mass += o.mass;
+    momentum += o.momentum;
+    moment += o.moment;
+    damping_work += o.damping_work;
+    damping_impulse += o.damping_impulse;
+    damping_torque += o.damping_torque;
+    return *this;
+  }
 };
 
 /// q: [px py . .] -> [vx vy . .] in all slots; slots without mass become zero. For Grid::q and Grid::again.
 template <class Real>
-void momenta_to_velocities(const exec::Space&, State<Real, 2>&, Real* q);
+void momenta_to_velocities(const exec::Space&, State<Real, 2>&, exec::Array<Real>& q);
 
 /// q: [px py fx fy], or [vx vy fx fy] when `from_velocity`, -> [v~x v~y ax ay].
 template <class Real>
@@ -35,5 +45,7 @@ template <class Real>
 double mass_cutoff(const State<Real, 2>& s) {
   return (sizeof(Real) == sizeof(double) ? 1e-24 : 1e-16) * s.particle_mass;
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -13,6 +13,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Particles' positions and how to turn them into weights.
 template <class Real>
 struct Positions {
@@ -83,8 +85,26 @@ struct CrossingSlots {
   const int* block_slots = nullptr;         ///< CrackFields::block_slots
   const int* slots = nullptr;               ///< CrackFields::slots
   int nodes = 0;                            ///< slots from here on lie behind the plain grid
-  bool atomic = false;                      ///< those may be written by several tiles at once
+  bool atomic = false;                      ///< those may be written by several tiles or threads at once
 };
+
+/// Whether several threads may add to the sums of one tile.
+#if defined(RIVEN_ON_DEVICE)
+inline constexpr bool in_team = true;
+#else
+inline constexpr bool in_team = false;
+#endif
+
+/// Adds to a group of four values of a tile's sums.
+template <class Real>
+RIVEN_INLINE void add_quad(Real* target, const Quad<Real>& value) {
+  if constexpr (in_team) {
+    for (int c = 0; c < 4; ++c)
+      exec::atomic_add(target[c], value[c]);
+  } else {
+    quad_at<Real>(target) += value;
+  }
+}
 
 template <class Real>
 RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
@@ -98,7 +118,7 @@ RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
 /// the tile's reach or to the padding.
 template <class Real, class Shape>
 RIVEN_INLINE void add_row(Real* m, Real ms, const Block<Real, Shape>& w, int k) {
-#if !defined(__CUDACC__)
+#if !defined(RIVEN_ON_DEVICE)
   if constexpr (Shape::width == 3) {
     typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(sizeof(Real))));
     *reinterpret_cast<Unaligned*>(m) += ms * Unaligned{w.sx[0][k], w.sx[1][k], w.sx[2][k], Real(0)};
@@ -106,7 +126,7 @@ RIVEN_INLINE void add_row(Real* m, Real ms, const Block<Real, Shape>& w, int k) 
   }
 #endif
   for (int i = 0; i < Shape::width; ++i)
-    m[i] += ms * w.sx[i][k];
+    add(m[i], ms * w.sx[i][k], in_team);
 }
 
 /// Adds to each node of particle k:  mass S  and  S A + dS/dx B + dS/dy C.
@@ -124,11 +144,11 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
       const Quad<Real> across = w.sy[j][k] * B;
 #pragma GCC unroll 3
       for (int i = 0; i < N; ++i)
-        quad_at<Real>(q + 4 * i) += w.sx[i][k] * row + w.gx[i][k] * across;
+        add_quad<Real>(q + 4 * i, w.sx[i][k] * row + w.gx[i][k] * across);
     } else {
 #pragma GCC unroll 3
       for (int i = 0; i < N; ++i)
-        quad_at<Real>(q + 4 * i) += w.sx[i][k] * row;
+        add_quad<Real>(q + 4 * i, w.sx[i][k] * row);
     }
     if constexpr (Mass)
       add_row(to.mass + first + static_cast<long>(j) * to.stride, mass * w.sy[j][k], w, k);
@@ -168,9 +188,9 @@ RIVEN_OUTLINE void scatter_apart(const Block<Real, Shape>& w, int k, Real mass, 
     const int slot = slots[n];
     if (slot < extra.nodes) {
       const long at = first + n / Shape::width * to.stride + n % Shape::width;
-      quad_at<Real>(to.q + 4 * at) += part;
+      add_quad<Real>(to.q + 4 * at, part);
       if constexpr (Mass)
-        to.mass[at] += m;
+        add(to.mass[at], m, in_team);
       return;
     }
     for (int c = 0; c < 4; ++c)
@@ -257,5 +277,7 @@ RIVEN_INLINE Gathered<Real> gather_from(const Block<Real, Shape>& w, int k, cons
   else
     return gather<Gradient>(w, k, q, nx);
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -15,7 +15,7 @@ template <class Shape, class Real>
 void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& grid,
                   const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
   const InterfaceSegments<Shape, Real> segments(domains, grid, fields, cracks);
-  const exec::View<const Vec2> jump = cracks.jump.view();  // shorter or empty before the first step
+  const exec::View<const Vec2> jump = exec::view(cracks.jump);  // shorter or empty before the first step
   const long flagged = fields.nodes.size();
   exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
     segments.each(c, [&](int p, const SegmentFrame& s, auto&& nodes) {

@@ -25,6 +25,7 @@ class FaceFields {
       : s_(s),
         view_(view),
         law_(laws<Law>(s)),
+        reads_(reads(s.particles)),
         task_(task),
         drift_(s.watch.drift / s.grid.lattice.h + 1e-6),
         memory_(cleared_memory()) {
@@ -198,7 +199,7 @@ class FaceFields {
     const DomainSetting<Real, 2>& d = s_.domains[p.body[i]];
     const double inv = 1 / l.h, X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
     const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
-    const LawState<Real> state = law_state<Law>(p, i);
+    const LawState<Real> state = law_state<Law>(reads_, i);
     const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
     const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
     Seen& seen = memory_.seen.emplace_back();
@@ -236,6 +237,7 @@ class FaceFields {
   const State<Real, 2>& s_;
   const SurfaceView& view_;
   BodyLookup<Law> law_;
+  ParticleReads<Real> reads_;
   const TipTask& task_;
   double drift_;
   std::array<int, 2> corner_{0, 0};

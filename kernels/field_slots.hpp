@@ -1,25 +1,26 @@
 // The slots of all fields of a node.
 #pragma once
-#include <algorithm>
-
 #include "core/state/crack_fields.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 struct FieldSlots {
   FieldSlots(const CrackFields& f, int nodes)
       : nodes_(nodes),
         most_(f.third_normals.empty() ? 4 : 1 << most_held),
-        extra_(f.extra.empty() ? nullptr : f.extra.data()),
-        index_(f.node_index.data()),
-        start_(f.candidate_start.data()) {}
+        extra_(f.extra.empty() ? nullptr : exec::data(f.extra)),
+        index_(exec::data(f.node_index)),
+        start_(exec::data(f.candidate_start)) {}
 
   /// 1 without cracks, 2 where one crack may be seen, 4 where two and 8 where more may.
   RIVEN_INLINE int count(int node) const {
     if (!extra_ || extra_[node] < 0)
       return 1;
     const int i = index_[node];
-    return 1 << std::min(start_[i + 1] - start_[i], most_held);
+    const int seen = start_[i + 1] - start_[i];
+    return 1 << (seen < most_held ? seen : most_held);
   }
   /// Of any node, at most.
   RIVEN_INLINE int most() const { return most_; }
@@ -33,5 +34,7 @@ struct FieldSlots {
   int nodes_, most_;
   const int *extra_, *index_, *start_;
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -10,6 +10,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// The matrix as a kernel sees it.
 template <class Real>
 struct FullMass {
@@ -35,7 +37,7 @@ struct FullMass {
         const Quad<Real> pairs = w.sx[i][k] * columns;
 #pragma GCC unroll 3
         for (int up = 0; up + j < N; ++up)
-          add_quad(row + size * i + entry(-i, up), mass * (w.sy[j][k] * w.sy[j + up][k]) * pairs);
+          add_group(row + size * i + entry(-i, up), mass * (w.sy[j][k] * w.sy[j + up][k]) * pairs);
       }
   }
 
@@ -59,15 +61,17 @@ struct FullMass {
   }
 
  private:
-  static RIVEN_INLINE void add_quad(Real* to, const Quad<Real>& value) {
-#if !defined(__CUDACC__)
+  static RIVEN_INLINE void add_group(Real* to, const Quad<Real>& value) {
+#if !defined(RIVEN_ON_DEVICE)
     typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(sizeof(Real))));
     *reinterpret_cast<Unaligned*>(to) += value;
 #else
     for (int c = 0; c < 4; ++c)
-      to[c] += value[c];
+      riven::add(to[c], value[c], in_team);
 #endif
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -9,6 +9,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 TransferRule transfer_rule(const Plan& plan, double pic_fraction, double particle_damping, double dt) {
   TransferRule r;
   r.keep = plan.transfer == Transfer::flip ? 1 : plan.transfer == Transfer::pic ? 1 - pic_fraction : 0;
@@ -108,7 +110,8 @@ StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
 template <class Shape, class Law, bool High, bool Stress, class Real>
 void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) {
   constexpr int L = exec::lanes;
-  const Real *q = s.grid.q.data(), *high = s.grid.high.data();
+  const Grid<Real>& g = s.grid;
+  const Real *q = exec::data(g.q), *high = exec::data(g.high);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
@@ -125,7 +128,8 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                              {p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr},
                              {q, High ? high : nullptr}}};
   each_tile(space, "grid to particle", tiles, see,
-            [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
+            [p, at, q, high, nx, law, n, high_gradient] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                     TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               MotionLanes<Real> motion;
               GradientLanes<Real> gradient;
@@ -154,19 +158,21 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
 template <class Shape, bool High, class Real>
 void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
   constexpr int L = exec::lanes;
-  const Real *q = s.grid.q.data(), *high = s.grid.high.data();
-  Real* again = s.grid.again.data();
+  const Grid<Real>& g = s.grid;
+  const Real *q = exec::data(g.q), *high = exec::data(g.high);
+  Real* again = exec::data(s.grid.again);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, true, false> see(s.watch, rule.keep != 1, n.compare);
   const TileRun<Real> tiles{
       s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
-      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
+      [p, at, extra, q, high, again, nx, n] RIVEN_KERNEL(auto stretch, long begin, long end, const NodeTarget<Real>& to,
+                                                         TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         MotionLanes<Real> motion;
         GradientLanes<Real> none;
@@ -224,5 +230,7 @@ void grid_to_particle_again(const exec::Space& space, const Plan& plan, State<Re
   template void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
 RIVEN_EACH_REAL(RIVEN_GRID_TO_PARTICLE)
 #undef RIVEN_GRID_TO_PARTICLE
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

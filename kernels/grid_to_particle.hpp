@@ -11,6 +11,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 struct TransferRule {
   double keep = 1;     ///< weight of the particle's own updated velocity: 1 FLIP, 1 - alpha PIC, 0 XPIC and FMPM
   double high_dt = 0;  ///< XPIC: dt, adds dt a to the higher-order velocity
@@ -29,5 +31,7 @@ void grid_to_particle(const exec::Space&, const Plan&, State<Real, 2>&, const Tr
 /// Particles::step until the stresses are updated (MUSL, USAVG; Nairn 2003, task 6c).
 template <class Real>
 void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -1,6 +1,7 @@
 #include "kernels/higher_orders.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/advance_grid.hpp"
 #include "kernels/dispatch.hpp"
@@ -12,6 +13,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 /// next += S^T M S term, in one pass over the particles; over those that see a node across a crack, where the full mass
@@ -19,14 +22,15 @@ namespace {
 template <class Shape, bool OnlyCrossing, class Real>
 void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const Real* term) {
   constexpr int L = exec::lanes;
-  Real* next = s.grid.next.data();
+  Real* next = exec::data(s.grid.next);
   const int nx = s.grid.lattice.nx;
-  const Real* mass = s.particles.mass.data();
+  const Real* mass = exec::data(std::as_const(s.particles.mass));
   const Positions<Real> at = positions(s);
-  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y}, {mass}, {term, next}}};
   scatter_tiles<false>(space, "higher orders", plan.scatter, tiles, static_cast<Real*>(nullptr), next, WatchNothing{},
-                       [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                       [at, extra, mass, term, next, nx] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                      const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                          if constexpr (OnlyCrossing && !decltype(stretch)::value)
                            return;
                          Block<Real, Shape> w;
@@ -55,23 +59,24 @@ template <class Shape, class Real>
 void build_full_mass(const exec::Space& space, State<Real, 2>& s) {
   constexpr int L = exec::lanes;
   exec::parallel_zero(space, "clear full mass", s.grid.full_mass);
-  const FullMass<Real> full{s.grid.full_mass.data(), s.grid.lattice.nx};
-  const Real* mass = s.particles.mass.data();
+  const FullMass<Real> full{exec::data(s.grid.full_mass), s.grid.lattice.nx};
+  const Real* mass = exec::data(std::as_const(s.particles.mass));
   const Positions<Real> at = positions(s);
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, crossing_slots(s), {{at.x, at.y}, {mass}, {}}};
-  scatter_tiles<false>(space, "full mass", ScatterKind::ordered, tiles, static_cast<Real*>(nullptr), full.entries,
-                       WatchNothing{}, [=](auto stretch, long begin, long end, const auto&, auto&) RIVEN_LANE {
-                         Block<Real, Shape> w;
-                         for (long first = begin; first < end; first += L) {
-                           const int count = static_cast<int>(std::min<long>(L, end - first));
-                           ask_ahead(stretch, first);
-                           w.weigh(at, first);
-                           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-                             if constexpr (!std::is_pointer_v<decltype(slots)>)
-                               full.add(w, k, mass[first + k]);
-                           });
-                         }
-                       });
+  scatter_tiles<false>(
+      space, "full mass", ScatterKind::ordered, tiles, static_cast<Real*>(nullptr), full.entries, WatchNothing{},
+      [at, full, mass] RIVEN_KERNEL(auto stretch, long begin, long end, const auto&, auto&) RIVEN_LANE {
+        Block<Real, Shape> w;
+        for (long first = begin; first < end; first += L) {
+          const int count = static_cast<int>(std::min<long>(L, end - first));
+          ask_ahead(stretch, first);
+          w.weigh(at, first);
+          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+            if constexpr (!std::is_pointer_v<decltype(slots)>)
+              full.add(w, k, mass[first + k]);
+          });
+        }
+      });
 }
 
 /// One step of the series: high += term, and next = term - m^-1 (next + M term) for the term after it. `First`: high
@@ -81,10 +86,11 @@ template <bool First, bool Last, bool Full, bool Passes, class Real>
 void find_term(const exec::Space& space, State<Real, 2>& s, const Real* term) {
   Grid<Real>& g = s.grid;
   const Real least = Real(mass_cutoff(s));
-  const FullMass<Real> full{g.full_mass.data(), g.lattice.nx};
+  const FullMass<Real> full{exec::data(g.full_mass), g.lattice.nx};
   const long inside = 2L * g.lattice.nx + 2, end = g.lattice.nodes() - inside;  // ghosts, without mass, lie outside
   exec::parallel_for(space, "higher orders: term", g.slots(),
-                     [=, mass = g.mass.data(), high = g.high.data(), next = g.next.data()](long n) {
+                     [term, full, inside, end, least, mass = exec::data(std::as_const(g.mass)),
+                      high = exec::data(g.high), next = exec::data(g.next)] RIVEN_KERNEL(long n) {
                        const Quad<Real> t = quad_at<Real>(term + 4 * n);
                        Quad<Real> smoothed{};
                        if constexpr (Passes)
@@ -106,12 +112,13 @@ void find_term(const exec::Space& space, State<Real, 2>& s, const Real* term) {
 /// v - dt a, as before the momentum update.
 template <class Real>
 void go_back(const exec::Space& space, State<Real, 2>& s) {
-  const Real* q = s.grid.q.data();
+  const Real* q = exec::data(std::as_const(s.grid.q));
   const Real dt = Real(s.clock.dt);
-  exec::parallel_for(space, "higher orders: before", s.grid.slots(), [=, term = s.grid.term.data()](long n) {
-    const Quad<Real> v{q[4 * n] - dt * q[4 * n + 2], q[4 * n + 1] - dt * q[4 * n + 3], Real(0), Real(0)};
-    quad_at<Real>(term + 4 * n) = v;
-  });
+  exec::parallel_for(
+      space, "higher orders: before", s.grid.slots(), [=, term = exec::data(s.grid.term)] RIVEN_KERNEL(long n) {
+        const Quad<Real> v{q[4 * n] - dt * q[4 * n + 2], q[4 * n + 1] - dt * q[4 * n + 3], Real(0), Real(0)};
+        quad_at<Real>(term + 4 * n) = v;
+      });
 }
 
 }  // namespace
@@ -128,7 +135,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
       build_full_mass<Shape>(space, s);
     for (int j = 1; j < plan.order; ++j) {
       const bool given = j == 1 && plan.transfer == Transfer::fmpm, last = j + 1 == plan.order && !plan.constraints;
-      const Real* term = given ? g.q.data() : g.term.data();
+      const Real* term = exec::data(std::as_const(given ? g.q : g.term));
       if (passes) {
         exec::parallel_zero(space, "clear term", g.next);
         with_flag(full, [&](auto rest) { smooth<Shape, decltype(rest)::value>(space, plan, s, term); });
@@ -146,7 +153,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
   });
   if (plan.constraints)
     exec::parallel_for(space, "higher orders: last", g.slots(),
-                       [=, high = g.high.data(), term = g.term.data()](long n) {
+                       [high = exec::data(g.high), term = exec::data(std::as_const(g.term))] RIVEN_KERNEL(long n) {
                          quad_at<Real>(high + 4 * n) += quad_at<Real>(term + 4 * n);
                        });
 }
@@ -154,5 +161,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
 #define RIVEN_HIGHER_ORDERS(Real) template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_HIGHER_ORDERS)
 #undef RIVEN_HIGHER_ORDERS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

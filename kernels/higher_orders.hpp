@@ -9,8 +9,12 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Fills Grid::high from Grid::q = [v~ a].
 template <class Real>
 void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -4,19 +4,23 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 template <class Law, class Real>
-LawState<Real> law_state(const Particles<Real, 2>& p, long i) {
+RIVEN_INLINE LawState<Real> law_state(const ParticleReads<Real>& p, long i) {
   LawState<Real> s{};
-  s.xx = p.stress[0][i];
-  s.yy = p.stress[1][i];
-  s.xy = p.stress[2][i];
+  s.xx = p.sxx[i];
+  s.yy = p.syy[i];
+  s.xy = p.sxy[i];
   if constexpr (Law::keeps_F) {
-    s.F = {p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
+    s.F = {p.Fxx[i], p.Fxy[i], p.Fyx[i], p.Fyy[i]};
     s.J = det(s.F);
   } else {
     s.J = p.J[i];
   }
   return s;
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -9,15 +9,17 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 template <class Shape, bool Forces, class Real>
 void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
-  Real *mass = s.grid.mass.data(), *q = s.grid.q.data();
+  Real *mass = exec::data(s.grid.mass), *q = exec::data(s.grid.q);
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const TileRun<Real> tiles{
       s.particles.tiles,
       s.grid.lattice,
@@ -28,7 +30,8 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
        mass}};
   const Real bx = Real(gravity.x), by = Real(gravity.y);
   scatter_tiles<true>(space, "particle to grid", plan.scatter, tiles, mass, q, WatchNothing{},
-                      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                      [p, at, extra, mass, q, bx, by] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                   const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                         Block<Real, Shape> w;
                         alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
                         for (long first = begin; first < end; first += L) {
@@ -82,5 +85,7 @@ void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>
   template void particle_to_grid(const exec::Space&, const Plan&, State<Real, 2>&, bool, Vec2);
 RIVEN_EACH_REAL(RIVEN_PARTICLE_TO_GRID)
 #undef RIVEN_PARTICLE_TO_GRID
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -6,6 +6,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Zeroes masses and node groups of all slots.
 template <class Real>
 void clear_grid(const exec::Space&, State<Real, 2>&);
@@ -14,5 +16,7 @@ void clear_grid(const exec::Space&, State<Real, 2>&);
 /// `gravity`: body force per mass, m/s^2.
 template <class Real>
 void particle_to_grid(const exec::Space&, const Plan&, State<Real, 2>&, bool with_forces, Vec2 gravity);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

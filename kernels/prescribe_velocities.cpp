@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/exec/parallel.hpp"
 #include "core/state/lay_points.hpp"
@@ -10,6 +12,8 @@
 #include "kernels/strain_shares.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 namespace {
 
@@ -113,6 +117,13 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
         o.now[axis] = (*o.velocity[axis])(s.clock.time);
         o.next[axis] = (*o.velocity[axis])(s.clock.time + s.clock.dt);
       }
+  c.now.resize(static_cast<long>(c.owners.size()));
+  c.next.resize(c.now.size());
+  for (long i = 0; i < c.now.size(); ++i) {
+    const ConstraintOwner& o = c.owners[static_cast<size_t>(i)];
+    c.now[i] = {o.now[0], o.now[1]};
+    c.next[i] = {o.next[0], o.next[1]};
+  }
   std::vector<Constraint> list = c.fixed;
   for (size_t i = 0; i < list.size(); ++i)
     c.at_node[list[i].node] = static_cast<int>(i) + 1;
@@ -133,21 +144,42 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
   }
 }
 
+namespace {
+
+/// What the owners of nodes gave to the body.
+void book_impulses(const Lattice& lattice, const exec::Array<Constraint>& list, const exec::Array<Vec2>& impulse,
+                   std::vector<ConstraintOwner>& owners) {
+  for (long n = 0; n < list.size(); ++n) {
+    const Vec2 x = lattice.position(list[n].node);
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(list[n].mask & (1u << axis)))
+        continue;
+      const Vec2 part = axis == 0 ? Vec2{impulse[n].x, 0} : Vec2{0, impulse[n].y};
+      ConstraintOwner& o = owners[static_cast<size_t>(list[n].owner[axis])];
+      o.impulse += part;
+      o.torque_impulse += cross(x, part);
+      o.work_now += (axis == 0 ? part.x : part.y) * 0.5 * (o.now[axis] + o.next[axis]);
+    }
+  }
+}
+
+}  // namespace
+
 template <class Real>
 void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double early_impulse) {
   Constraints& c = s.constraints;
   const int first_grip = c.first_grip();
   const FieldSlots slots(s.fields, s.grid.lattice.nodes());
-  const Constraint* list = c.list.data();
-  const ConstraintOwner* owners = c.owners.data();
-  Vec2* impulse = c.impulse.data();
-  double *first = c.change[0].data(),
-         *noted = stage == Stage::term ? nullptr : c.change[static_cast<int>(stage)].data();
-  const Real* mass = s.grid.mass.data();
-  Real* q = stage == Stage::again ? s.grid.again.data() : stage == Stage::term ? s.grid.next.data() : s.grid.q.data();
+  const Constraint* list = exec::data(std::as_const(c.list));
+  const Vec2* velocity = exec::data(std::as_const(stage == Stage::before ? c.now : c.next));
+  Vec2* impulse = exec::data(c.impulse);
+  double *first = exec::data(c.change[0]),
+         *noted = stage == Stage::term ? nullptr : exec::data(c.change[static_cast<int>(stage)]);
+  const Real* mass = exec::data(std::as_const(s.grid.mass));
+  Real* q = exec::data(stage == Stage::again ? s.grid.again : stage == Stage::term ? s.grid.next : s.grid.q);
   const bool momenta = stage == Stage::before || stage == Stage::again;
   const double inv_dt = 1 / s.clock.dt;
-  exec::parallel_for(space, "prescribe velocities", c.list.size(), [=](long n) {
+  exec::parallel_for(space, "prescribe velocities", c.list.size(), [=] RIVEN_KERNEL(long n) {
     const Constraint k = list[n];
     double given[2] = {0, 0};
     for (int f = 0; f < slots.count(k.node); ++f) {
@@ -158,8 +190,8 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
       for (int axis = 0; axis < 2; ++axis) {
         if (!(k.mask & (1u << axis)))
           continue;
-        const ConstraintOwner& o = owners[k.owner[axis]];
-        const double v = stage == Stage::term ? 0 : stage == Stage::before ? o.now[axis] : o.next[axis];
+        const Vec2 given_v = stage == Stage::term ? Vec2{} : velocity[k.owner[axis]];
+        const double v = axis == 0 ? given_v.x : given_v.y;
         Real& value = q[4 * slot + axis];
         const double change = momenta ? m * v - value : m * (v - value);
         value = Real(momenta ? m * v : v);
@@ -176,72 +208,74 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
   });
   if (stage == Stage::again)
     return;  // changes strain rates only; no impulse reaches the particles
-  for (long n = 0; n < c.list.size(); ++n) {
-    const Vec2 x = s.grid.lattice.position(list[n].node);
-    for (int axis = 0; axis < 2; ++axis) {
-      if (!(list[n].mask & (1u << axis)))
-        continue;
-      const Vec2 part = axis == 0 ? Vec2{impulse[n].x, 0} : Vec2{0, impulse[n].y};
-      ConstraintOwner& o = c.owners[static_cast<size_t>(list[n].owner[axis])];
-      o.impulse += part;
-      o.torque_impulse += cross(x, part);
-      o.work_now += (axis == 0 ? part.x : part.y) * 0.5 * (o.now[axis] + o.next[axis]);
-    }
-  }
+  book_impulses(s.grid.lattice, std::as_const(c.list), std::as_const(c.impulse), c.owners);
 }
 
 namespace {
-
 /// What a component of a field of a node gains by prescribed motion, as field_impulses.hpp has it for contact.
 struct Gain {
   double particles = 0, early = 0;  ///< J; the part that the transfer hands over
+  RIVEN_FN Gain& operator+=(const Gain& o) {
+    particles += o.particles;
+    early += o.early;
+    return *this;
+  }
 };
 
+/// Of a component of a slot, given how its momentum changed at the stages of the step.
 template <class Real>
-Gain gain(const State<Real, 2>& s, StrainShares share, bool again, double early_impulse, long slot, int axis,
-          const double* change, bool carry) {
-  const double m = s.grid.mass[slot], dt = s.clock.dt, before = change[0], now = change[1], last = change[2];
-  const double v1 = s.grid.q[4 * slot + axis], a = s.grid.q[4 * slot + 2 + axis];
-  const double given = now + (carry ? before : 0), early = carry ? 0 : early_impulse * before;
-  const double v0 = v1 - dt * a - (carry ? 0 : before / m);
-  const double v2 = again ? s.grid.again[4 * slot + axis] - last / m : v0 + dt * a + early / m, mean = 0.5 * (v0 + v2);
-  const double strains = share.by_first * before + share.by_last * last;
-  return {(given + early) * mean - (dt * a - given / m) * strains, early * mean};
-}
+struct Gains {
+  const Real *mass, *q, *again;  ///< `again`: null without a second extrapolation
+  StrainShares share;
+  double dt, early_impulse;
+
+  RIVEN_FN Gain operator()(long slot, int axis, double before, double now, double last, bool carry) const {
+    const double m = mass[slot], v1 = q[4 * slot + axis], a = q[4 * slot + 2 + axis];
+    const double given = now + (carry ? before : 0), early = carry ? 0 : early_impulse * before;
+    const double v0 = v1 - dt * a - (carry ? 0 : before / m);
+    const double v2 = again ? again[4 * slot + axis] - last / m : v0 + dt * a + early / m, mean = 0.5 * (v0 + v2);
+    const double strains = share.by_first * before + share.by_last * last;
+    return {(given + early) * mean - (dt * a - given / m) * strains, early * mean};
+  }
+};
 
 /// Books what prescribed motion took beyond the work of the reactions.
 template <class Real>
-void book_capture(const Plan& plan, double early_impulse, State<Real, 2>& s) {
+void book_capture(const exec::Space& space, const Plan& plan, double early_impulse, State<Real, 2>& state) {
+  const State<Real, 2>& s = state;
   const Constraints& c = s.constraints;
   const FieldSlots slots(s.fields, s.grid.lattice.nodes());
-  const StrainShares share = strain_shares(plan.update);
-  Gain sum;
-  for (long n = 0; n < c.list.size(); ++n)
-    for (int f = 0; f < slots.count(c.list[n].node); ++f) {
-      const long slot = slots.of(c.list[n].node, f);
-      for (int axis = 0; axis < 2 && s.grid.mass[slot] > 0; ++axis) {
-        if (!(c.list[n].mask & (1u << axis)))
-          continue;
-        const long at = slots.component(n, f, axis);
-        const double change[3] = {c.change[0][at], c.change[1][at], c.change[2][at]};
-        const Gain g = gain(s, share, plan.extrapolate_again(), early_impulse, slot, axis, change,
-                            c.list[n].owner[axis] >= c.first_grip());
-        sum.particles += g.particles;
-        sum.early += g.early;
-      }
-    }
-  s.ledger.energy.transfer += sum.early;
-  s.ledger.energy.capture -= sum.particles;
+  const Gains<Real> gain{
+      exec::data(s.grid.mass),    exec::data(s.grid.q), plan.extrapolate_again() ? exec::data(s.grid.again) : nullptr,
+      strain_shares(plan.update), s.clock.dt,           early_impulse};
+  const Constraint* list = exec::data(c.list);
+  const double *before = exec::data(c.change[0]), *now = exec::data(c.change[1]), *last = exec::data(c.change[2]);
+  const int first_grip = c.first_grip();
+  const Gain sum =
+      exec::parallel_sum<Gain>(space, "boundary: capture", c.list.size(), [=] RIVEN_KERNEL(long n, Gain& all) {
+        const Constraint k = list[n];
+        for (int f = 0; f < slots.count(k.node); ++f) {
+          const long slot = slots.of(k.node, f);
+          for (int axis = 0; axis < 2 && gain.mass[slot] > 0; ++axis) {
+            const long at = slots.component(n, f, axis);
+            if (k.mask & (1u << axis))
+              all += gain(slot, axis, before[at], now[at], last[at], k.owner[axis] >= first_grip);
+          }
+        }
+      });
+  Energy& e = state.ledger.energy;
+  e.transfer += sum.early;
+  e.capture -= sum.particles;
   for (const ConstraintOwner& o : c.owners)
-    s.ledger.energy.capture += o.work_now;
+    e.capture += o.work_now;
 }
 
 }  // namespace
 
 template <class Real>
-void settle_constraints(const Plan& plan, double early_impulse, State<Real, 2>& s) {
+void settle_constraints(const exec::Space& space, const Plan& plan, double early_impulse, State<Real, 2>& s) {
   Constraints& c = s.constraints;
-  book_capture(plan, early_impulse, s);
+  book_capture(space, plan, early_impulse, s);
   for (ConstraintOwner& o : c.owners) {
     o.reaction = (1 / s.clock.dt) * o.impulse;
     s.ledger.momentum.impulse += o.impulse;
@@ -261,8 +295,10 @@ void settle_constraints(const Plan& plan, double early_impulse, State<Real, 2>& 
   template void make_constraints(const Scene&, State<Real, 2>&);                          \
   template void list_constraints(const Plan&, State<Real, 2>&);                           \
   template void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double); \
-  template void settle_constraints(const Plan&, double, State<Real, 2>&);
+  template void settle_constraints(const exec::Space&, const Plan&, double, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_PRESCRIBE_VELOCITIES)
 #undef RIVEN_PRESCRIBE_VELOCITIES
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -12,6 +12,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// term: a term of the higher-order series, which vanishes where velocities are prescribed.
 enum class Stage { before, after, again, term };
 
@@ -31,6 +33,8 @@ void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double ear
 /// Ends the step: books impulses, work and what was lost as bodies were caught, moves the grips, turns impulses into
 /// reaction forces. Needs Grid::q as [vx vy ax ay] and Grid::again, where there is one, as [vx vy . .].
 template <class Real>
-void settle_constraints(const Plan&, double early_impulse, State<Real, 2>&);
+void settle_constraints(const exec::Space&, const Plan&, double early_impulse, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -66,9 +66,13 @@ class SimulationOf {
   double early_impulse() const;
 };
 
+inline namespace RIVEN_SIDE {
+
 /// The tasks of a step, as the plan asks. Printed by `riven plan` and, with times, at the end of a run.
 template <class Real>
 std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&);
+
+}  // namespace RIVEN_SIDE
 
 using Simulation = SimulationOf<double>;
 using Task = Simulation::Task;

@@ -4,12 +4,16 @@
 #include <array>
 #include <iterator>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "core/exec/parallel.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/report_trouble.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 namespace {
 
@@ -30,30 +34,44 @@ RIVEN_INLINE int key_of(const Lattice& l, double X, double Y) {
   return inside ? l.sorted_cell(i, j) : -1;
 }
 
+template <class Shape, class Real>
+void find_keys(const exec::Space& space, const Lattice& lattice, const Particles<Real, 2>& p, exec::Array<int>& keys) {
+  const Lattice l = lattice;
+  const double *x = exec::data(p.x[0]), *y = exec::data(p.x[1]);
+  const double ox = l.origin.x, oy = l.origin.y, inv = 1 / l.h;
+  int* key = exec::data_to_fill(keys);
+  exec::parallel_for(space, "sort particles: keys", p.count(),
+                     [=] RIVEN_KERNEL(long i) { key[i] = key_of<Shape>(l, (x[i] - ox) * inv, (y[i] - oy) * inv); });
+}
+
 /// Moves one array to the new order, through `spare`.
 template <class T>
 void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& spare, const int* order) {
   spare.resize(array.size());
-  T* to = spare.data();
-  const T* from = array.data();
-  exec::parallel_for(space, "sort particles: move", array.size(), [=](long i) { to[i] = from[order[i]]; });
+  T* to = exec::data_to_fill(spare);
+  const T* from = exec::data(std::as_const(array));
+  exec::parallel_for(space, "sort particles: move", array.size(), [=] RIVEN_KERNEL(long i) { to[i] = from[order[i]]; });
   array.swap(spare);
 }
 
 }  // namespace
 
 void list_tiles(const Lattice& l, Tiles& t) {
-  t.filled.clear();
+  const exec::Array<int>& start = t.start;
+  std::vector<int> filled, by_colour;
   for (int tile = 0; tile < l.tiles_x() * l.tiles_y(); ++tile)
-    if (t.start[tile] < t.start[tile + 1])
-      t.filled.push_back(tile);
-  t.by_colour.clear();
+    if (start[tile] < start[tile + 1])
+      filled.push_back(tile);
   for (int c = 0; c < 4; ++c) {
-    t.colour_start[c] = static_cast<int>(t.by_colour.size());
-    std::copy_if(t.filled.begin(), t.filled.end(), std::back_inserter(t.by_colour),
+    t.colour_start[c] = static_cast<int>(by_colour.size());
+    std::copy_if(filled.begin(), filled.end(), std::back_inserter(by_colour),
                  [&](int tile) { return tile % l.tiles_x() % 2 + 2 * (tile / l.tiles_x() % 2) == c; });
   }
-  t.colour_start[4] = static_cast<int>(t.by_colour.size());
+  t.colour_start[4] = static_cast<int>(by_colour.size());
+  for (const auto& [list, to] : {std::pair{&filled, &t.filled}, std::pair{&by_colour, &t.by_colour}}) {
+    to->resize(static_cast<long>(list->size()));
+    std::copy(list->begin(), list->end(), to->begin());
+  }
 }
 
 template <class Real>
@@ -70,18 +88,14 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   const Lattice l = s.grid.lattice;
   const long n = p.count();
   exec::Array<int> key(n), order(n);
-  const double *x = p.x[0].data(), *y = p.x[1].data(), ox = l.origin.x, oy = l.origin.y, inv = 1 / l.h;
-  with_shape(plan.shape, [&](auto shape) {
-    exec::parallel_for(space, "sort particles: keys", n, [=, key = key.data()](long i) {
-      key[i] = key_of<typename decltype(shape)::type>(l, (x[i] - ox) * inv, (y[i] - oy) * inv);
-    });
-  });
+  with_shape(plan.shape, [&](auto shape) { find_keys<typename decltype(shape)::type>(space, l, p, key); });
   const long keys = l.nodes();
   exec::Array<int> start(keys + 2);  // of cell k at k + 1, until the particles are placed
+  const exec::Array<int>& known = key;
   for (long i = 0; i < n; ++i) {
-    if (key[i] < 0)
+    if (known[i] < 0)
       particle_left_grid(s, i);
-    ++start[key[i] + 2];
+    ++start[known[i] + 2];
   }
   for (long k = 0; k < keys; ++k)
     start[k + 2] += start[k + 1];
@@ -90,13 +104,14 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   for (int t = 0; t <= tiles; ++t)
     p.tiles.start[t] = start[long{t} * cells_per_tile + 1];
   for (long i = 0; i < n; ++i)
-    order[start[key[i] + 1]++] = static_cast<int>(i);
+    order[start[known[i] + 1]++] = static_cast<int>(i);
   if (plan.contact || plan.fracture)
     p.tiles.cell_start.swap(start);
 
   std::tuple<exec::Array<double>, exec::Array<float>, exec::Array<int>, exec::Array<std::uint8_t>> spare;
-  p.each_array(
-      [&](auto& a) { permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), order.data()); });
+  p.each_array([&](auto& a) {
+    permute(space, a, std::get<std::remove_reference_t<decltype(a)>>(spare), exec::data(std::as_const(order)));
+  });
   ++p.tiles.order;
   list_tiles(l, p.tiles);
   for (auto* a : {&s.watch.tile_move, &s.watch.tile_J, &s.watch.tile_finite, &s.watch.tile_worn, &s.watch.tile_apart})
@@ -104,7 +119,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   s.watch.drift = 0;
   s.watch.sorted_at = s.clock.step;
   for (long i = 0; i < static_cast<long>(s.loads.position.size()); ++i)
-    s.loads.position[static_cast<size_t>(p.id[i])] = static_cast<int>(i);
+    s.loads.position[static_cast<size_t>(std::as_const(p.id)[i])] = static_cast<int>(i);
 }
 
 #define RIVEN_SORT_PARTICLES(Real)               \
@@ -112,5 +127,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   template void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_SORT_PARTICLES)
 #undef RIVEN_SORT_PARTICLES
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

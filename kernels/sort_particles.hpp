@@ -6,6 +6,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// True when some particle may have drifted further from its sorted cell than the tiles' margin allows, or so far that
 /// a sort pays.
 template <class Real>
@@ -17,5 +19,7 @@ void list_tiles(const Lattice&, Tiles&);
 /// Throws Error (unstable) naming a particle that is outside of the grid's walls.
 template <class Real>
 void sort_particles(const exec::Space&, const Plan&, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -2,10 +2,7 @@
 // fields of several cracks at a node (after Nairn and Aimene, section 2.1).
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/exec/parallel.hpp"
-#include "core/exec/timers.hpp"
-#include "core/state/make_state.hpp"
 #include "kernels/advance_grid.hpp"
 #include "kernels/apply_loads.hpp"
 #include "kernels/contact_step.hpp"
@@ -16,15 +13,15 @@
 #include "kernels/higher_orders.hpp"
 #include "kernels/particle_to_grid.hpp"
 #include "kernels/prescribe_velocities.hpp"
-#include "kernels/report_trouble.hpp"
 #include "kernels/simulation.hpp"
 #include "kernels/sort_particles.hpp"
 #include "kernels/tally.hpp"
 #include "kernels/time_step.hpp"
 #include "kernels/update_stress.hpp"
-#include "kernels/watch_figures.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 namespace {
 
@@ -122,7 +119,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   });
   add_contact(true, "contact before", "contact", contact_before_update<Real>);
   add(p.fracture, "bridge tips before", "J", bridge_before_update<Real>);
-  add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q.data()); });
+  add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q); });
   add(before, "stress before, forces", "",
       [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.space, m.plan, m.state); });
@@ -152,7 +149,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add_contact(again, "contact again", "contact", contact_after_extrapolation<Real>);
   add(again && p.fracture, "bridge tips again", "J", bridge_after_extrapolation<Real>);
   add(again, "velocities again", "",
-      [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again.data()); });
+      [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again); });
   add_impulses("energy of impulses", book_impulses<Real>);
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
   add(p.contact_waits, "watch contact", "contact", watch_contact<Real>);
@@ -162,89 +159,14 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
   add(p.constraints, "boundary: reactions", "boundary",
-      [](Simulation& m) { settle_constraints(m.plan, m.early_impulse(), m.state); });
+      [](Simulation& m) { settle_constraints(m.space, m.plan, m.early_impulse(), m.state); });
   return list;
 }
 
-template <class Real>
-SimulationOf<Real>::SimulationOf(const Scene& s, const exec::Space& where)
-    : scene(s), space(where), plan(make_plan(s)), tasks(assemble_step<Real>(s, plan)) {
-  if (scene.precision != precision_of<Real>)
-    fail({Exit::internal, "the simulation has not the precision of its scene", s.name});
-  begin();
-}
-
-template <class Real>
-void SimulationOf<Real>::begin() {
-  state = {};
-  contact_sums = {};
-  contact_before = contact_after = contact_again = {};
-  contact_watch = {};
-  impulses = {};
-  fracture = {};
-  bridges.clear();
-  point_forces.clear();
-  for (Task& t : tasks) {
-    t.calls = 0;
-    t.seconds = 0;
-  }
-  make_state(scene, plan, state);
-  if (plan.constraints)
-    make_constraints(scene, state);
-  if (plan.loads)
-    make_loads(scene, state);
-  contact_sums.keep_touched = plan.contact && (plan.fracture || plan.contact_waits);
-  sort_particles(space, plan, state);
-  tally(space, plan, state);
-  watch_figures(*this);
-}
-
-template <class Real>
-void SimulationOf<Real>::step() {
-  for (Task& t : tasks) {
-    if (t.due && !t.due(*this))
-      continue;
-    const double start = exec::Stopwatch::now();
-    t.run(*this);
-    t.seconds += exec::Stopwatch::now() - start;
-    ++t.calls;
-  }
-  state.clock.time += state.clock.dt;
-  ++state.clock.step;
-  check_particles(state);
-}
-
-template <class Real>
-void SimulationOf<Real>::take_stock() {
-  tally(space, plan, state);
-  watch_figures(*this);
-  check_energy(plan, state);
-}
-
-template <class Real>
-Vec2 SimulationOf<Real>::gravity() const {
-  const auto part = [&](int axis) {
-    return scene.body_force[axis] ? (*scene.body_force[axis])(state.clock.middle()) : 0.0;
-  };
-  return {part(0), part(1)};
-}
-template <class Real>
-double SimulationOf<Real>::grid_damping() const {
-  return scene.grid_damping ? (*scene.grid_damping)(state.clock.time) : 0;
-}
-template <class Real>
-double SimulationOf<Real>::particle_damping() const {
-  return scene.particle_damping ? (*scene.particle_damping)(state.clock.time) : 0;
-}
-template <class Real>
-double SimulationOf<Real>::early_impulse() const {
-  return plan.transfer == Transfer::flip ? 0 : plan.transfer == Transfer::pic ? scene.pic_fraction : 1;
-}
-
-#define RIVEN_STEP(Real)                                                       \
-  template std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&); \
-  template class SimulationOf<Real>;
+#define RIVEN_STEP(Real) template std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&);
 RIVEN_EACH_REAL(RIVEN_STEP)
 #undef RIVEN_STEP
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -13,6 +13,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Velocity gradient of each lane.
 template <class Real>
 struct GradientLanes {
@@ -88,5 +90,7 @@ RIVEN_INLINE void update_stress_lanes(const ParticleView<Real>& p, long first, i
         p, first, count, g, dt, [&](long i) -> const Law& { return laws.of(i); }, seen);
   }
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/exec/parallel.hpp"
 #include "core/state/tractions.hpp"
@@ -12,11 +11,13 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 struct Sums {
   double kinetic = 0, strain = 0, px = 0, py = 0, angular = 0, scale = 0, angular_scale = 0;
-  Sums& operator+=(const Sums& o) {
+  RIVEN_FN Sums& operator+=(const Sums& o) {
     kinetic += o.kinetic;
     strain += o.strain;
     px += o.px;
@@ -41,21 +42,43 @@ struct LaneSums {
   double scale[lanes] = {}, angular_scale[lanes] = {};
   double least_J[lanes], largest_J[lanes] = {};
 
-  LaneSums() { std::fill_n(least_J, lanes, std::numeric_limits<double>::infinity()); }
-  ChunkSums sum() const {
-    Sums t;
-    for (int k = 0; k < lanes; ++k)
-      t += {kinetic[k], strain[k], px[k], py[k], angular[k], scale[k], angular_scale[k]};
-    return {t, *std::min_element(least_J, least_J + lanes), *std::max_element(largest_J, largest_J + lanes)};
+  RIVEN_FN LaneSums() {
+    for (double& J : least_J)
+      J = std::numeric_limits<double>::infinity();
+  }
+  RIVEN_FN ChunkSums sum() const {
+    ChunkSums t{{}, least_J[0], largest_J[0]};
+    for (int k = 0; k < lanes; ++k) {
+      t.sums += {kinetic[k], strain[k], px[k], py[k], angular[k], scale[k], angular_scale[k]};
+      t.least_J = std::min(t.least_J, least_J[k]);
+      t.largest_J = std::max(t.largest_J, largest_J[k]);
+    }
+    return t;
+  }
+};
+
+/// The law of a particle: one for all, taken out of its table once, or one for each.
+template <class Law>
+struct OneLaw {
+  const Law* table;
+  RIVEN_INLINE auto take() const {
+    return [law = *table](long) RIVEN_LANE { return law; };
+  }
+};
+template <class Law>
+struct LawOfEach {
+  BodyLookup<Law> law;
+  RIVEN_INLINE auto take() const {
+    return [of = law](long i) RIVEN_LANE { return of.of(i); };
   }
 };
 
 /// Over particles [first, first + count) of a chunk; law_of(i) is the law of particle i.
 template <class Law, class Real, class LawOf>
-RIVEN_INLINE void add_up(const Particles<Real, 2>& p, const LawOf& law_of, long first, int count, LaneSums& t) {
+RIVEN_INLINE void add_up(const ParticleReads<Real>& p, const LawOf& law_of, long first, int count, LaneSums& t) {
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
-    const double m = p.mass[i], vx = p.v[0][i], vy = p.v[1][i], x = p.x[0][i], y = p.x[1][i];
+    const double m = p.mass[i], vx = p.vx[i], vy = p.vy[i], x = p.x[i], y = p.y[i];
     const double vv = vx * vx + vy * vy;
     t.kinetic[k] += 0.5 * m * vv;
     const LawState<Real> state = law_state<Law>(p, i);
@@ -72,32 +95,35 @@ RIVEN_INLINE void add_up(const Particles<Real, 2>& p, const LawOf& law_of, long 
 }
 
 template <class Law, class Real, class LawOf>
-std::vector<ChunkSums> sum_particles(const exec::Space& space, const Particles<Real, 2>& p, const LawOf& law_of) {
-  const long n = p.count(), chunks = (n + exec::chunk - 1) / exec::chunk;
-  std::vector<ChunkSums> part(static_cast<size_t>(chunks));
-  exec::parallel_tasks(space, "tally", chunks, [&](long c) {
+exec::Array<ChunkSums> sum_particles(const exec::Space& space, const Particles<Real, 2>& particles,
+                                     const LawOf& law_of) {
+  const long n = particles.count(), chunks = (n + exec::chunk - 1) / exec::chunk;
+  const ParticleReads<Real> p = reads(particles);
+  exec::Array<ChunkSums> part(chunks);
+  exec::parallel_tasks(space, "tally", chunks, [=, part = exec::data_to_fill(part)] RIVEN_KERNEL(long c) {
     LaneSums t;
+    const auto law = law_of.take();
     const long end = std::min(n, (c + 1) * exec::chunk);
     for (long first = c * exec::chunk; first < end; first += exec::lanes)
-      add_up<Law>(p, law_of, first, static_cast<int>(std::min<long>(exec::lanes, end - first)), t);
-    part[static_cast<size_t>(c)] = t.sum();
+      add_up<Law>(p, law, first, static_cast<int>(std::min<long>(exec::lanes, end - first)), t);
+    part[c] = t.sum();
   });
   return part;
 }
 
 /// Adds up what chunks hold, in their order; of equal det F the first chunk's counts.
-Sums total_of(const std::vector<ChunkSums>& part, DetF& J) {
+Sums total_of(const exec::Array<ChunkSums>& part, DetF& J) {
   Sums total;
   J = {};
-  for (size_t c = 0; c < part.size(); ++c) {
+  for (long c = 0; c < part.size(); ++c) {
     total += part[c].sums;
     if (c == 0 || part[c].least_J < J.least) {
       J.least = part[c].least_J;
-      J.least_chunk = static_cast<long>(c);
+      J.least_chunk = c;
     }
     if (c == 0 || part[c].largest_J > J.largest) {
       J.largest = part[c].largest_J;
-      J.largest_chunk = static_cast<long>(c);
+      J.largest_chunk = c;
     }
   }
   return total;
@@ -108,12 +134,12 @@ Sums total_of(const std::vector<ChunkSums>& part, DetF& J) {
 template <class Real>
 void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   const auto& p = s.particles;
-  const std::vector<ChunkSums> part = with_law<Real>(plan.law, [&](auto law) {
+  const exec::Array<ChunkSums> part = with_law<Real>(plan.law, [&](auto law) {
     using Law = typename decltype(law)::type;
     const BodyLookup<Law> of = laws<Law>(s);
     if (of.single)
-      return sum_particles<Law>(space, p, [law = of.table[0]](long) RIVEN_LANE { return law; });
-    return sum_particles<Law>(space, p, [of](long i) RIVEN_LANE { return of.of(i); });
+      return sum_particles<Law>(space, p, OneLaw<Law>{of.table});
+    return sum_particles<Law>(space, p, LawOfEach<Law>{of});
   });
   const Sums t = total_of(part, s.watch.det_F);
   Energy& e = s.ledger.energy;
@@ -136,11 +162,12 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
 
 template <class Real>
 void book_particle_damping(const exec::Space& space, double damping, State<Real, 2>& s) {
-  const auto& p = s.particles;
-  const Sums t = exec::parallel_reduce<Sums>(space, "particle damping sums", p.count(), [&](long i) {
-    const double m = p.mass[i], vx = p.v[0][i], vy = p.v[1][i];
-    return Sums{0.5 * m * (vx * vx + vy * vy), 0, m * vx, m * vy, m * (p.x[0][i] * vy - p.x[1][i] * vx), 0, 0};
-  });
+  const ParticleReads<Real> p = reads(s.particles);
+  const Sums t =
+      exec::parallel_reduce<Sums>(space, "particle damping sums", s.particles.count(), [=] RIVEN_KERNEL(long i) {
+        const double m = p.mass[i], vx = p.vx[i], vy = p.vy[i];
+        return Sums{0.5 * m * (vx * vx + vy * vy), 0, m * vx, m * vy, m * (p.x[i] * vy - p.y[i] * vx), 0, 0};
+      });
   const double d = damping * s.clock.dt;
   s.ledger.energy.damping += 2 * d * (1 - 0.5 * d) * t.kinetic;
   s.ledger.momentum.impulse -= d * Vec2{t.px, t.py};
@@ -152,5 +179,7 @@ void book_particle_damping(const exec::Space& space, double damping, State<Real,
   template void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_TALLY)
 #undef RIVEN_TALLY
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

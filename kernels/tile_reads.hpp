@@ -12,6 +12,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Particles may have drifted by one cell since they were sorted, and see nodes up to one more away: a tile sees the
 /// nodes from -2 to 9 around its corner.
 inline constexpr int tile_margin = 2;
@@ -86,5 +88,7 @@ class TileAhead {
   int blocks_;
   long next_begin_, next_end_;
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

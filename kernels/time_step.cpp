@@ -10,17 +10,31 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 struct Largest {
   Speeds s;
-  Largest& operator+=(const Largest& o) {
+  RIVEN_FN Largest& operator+=(const Largest& o) {
     s.wave = std::max(s.wave, o.s.wave);
     s.particle = std::max(s.particle, o.s.particle);
     s.sum = std::max(s.sum, o.s.sum);
     return *this;
   }
 };
+
+template <class Law, class Real>
+Speeds largest_speeds(const exec::Space& space, const BodyLookup<Law>& law, const Particles<Real, 2>& particles) {
+  const ParticleReads<Real> p = reads(particles);
+  return exec::parallel_reduce<Largest>(space, "time step", particles.count(),
+                                        [=] RIVEN_KERNEL(long i) {
+                                          const double c = law.of(i).wave_speed(law_state<Law>(p, i)),
+                                                       v = std::hypot(p.vx[i], p.vy[i]);
+                                          return Largest{{c, v, c + v}};
+                                        })
+      .s;
+}
 
 /// sqrt(rho h / k) of the stiffest cohesive law and the lightest material, s.
 template <class Real>
@@ -38,18 +52,8 @@ double cohesive_time(const Scene& scene, const State<Real, 2>& s) {
 
 template <class Real>
 Speeds measure_speeds(const exec::Space& space, const Plan& plan, const State<Real, 2>& s) {
-  return with_law<Real>(plan.law, [&](auto law) {
-    using Law = typename decltype(law)::type;
-    const BodyLookup<Law> of = laws<Law>(s);
-    const auto& p = s.particles;
-    return exec::parallel_reduce<Largest>(space, "time step", p.count(),
-                                          [&, of](long i) {
-                                            const double c = of.of(i).wave_speed(law_state<Law>(p, i)),
-                                                         v = std::hypot(p.v[0][i], p.v[1][i]);
-                                            return Largest{{c, v, c + v}};
-                                          })
-        .s;
-  });
+  return with_law<Real>(
+      plan.law, [&](auto law) { return largest_speeds(space, laws<typename decltype(law)::type>(s), s.particles); });
 }
 
 template <class Real>
@@ -78,5 +82,7 @@ void reduce_time_step(double factor, Clock& c) {
   template void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_TIME_STEP)
 #undef RIVEN_TIME_STEP
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -8,6 +8,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 struct Speeds {
   double wave = 0;      ///< fastest wave, m/s
   double particle = 0;  ///< fastest particle, m/s
@@ -23,5 +25,7 @@ void choose_time_step(const Scene&, const Speeds&, State<Real, 2>&);
 
 /// From now on all time steps are `factor` times as long as they would be, the user's limit included.
 void reduce_time_step(double factor, Clock&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -9,6 +9,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 template <class Stretch, class Real, class Shape>
@@ -42,11 +44,11 @@ struct StressLanes {
 template <class Shape, class Law, bool Averaged, class Real>
 void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
-  Real* q = s.grid.q.data();
+  Real* q = exec::data(s.grid.q);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
-  const CrossingSlots extra = crossing_slots(s, plan.scatter == ScatterKind::atomic && space.threads() > 1);
+  const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
@@ -56,7 +58,8 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
                             {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.mass, p.sxx, p.syy, p.sxy}, {q}}};
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, tiles, static_cast<Real*>(nullptr), q, see,
-      [=](auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
+      [p, at, extra, law, q, nx, bx, by, step] RIVEN_KERNEL(
+          auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
         StressLanes<Real> stress;
@@ -84,7 +87,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
 template <class Shape, class Law, bool Averaged, class Real>
 void run_move(const exec::Space& space, State<Real, 2>& s) {
   constexpr int L = exec::lanes;
-  const Real* again = s.grid.again.data();
+  const Real* again = exec::data(s.grid.again);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
@@ -98,21 +101,22 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
       extra,
       {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.step_x, p.step_y, p.sxx, p.syy, p.sxy}, {again}}};
   each_tile(space, "stress after, move", tiles, see,
-            [=](auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
-              Block<Real, Shape> w;
-              GradientLanes<Real> gradient;
-              for (long first = begin; first < end; first += L) {
-                const int count = static_cast<int>(std::min<long>(L, end - first));
-                ask_ahead(stretch, first);
-                w.weigh(at, first);
-                gather_gradients(w, stretch, first, count, again, nx, gradient);
-                update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
-                exec::for_lanes(count, [&](int k) RIVEN_LANE {
-                  p.x[first + k] += p.step_x[first + k];
-                  p.y[first + k] += p.step_y[first + k];
+            [p, at, law, again, nx, step] RIVEN_KERNEL(auto stretch, long begin, long end, TileWatch<Real>& seen)
+                RIVEN_LANE {
+                  Block<Real, Shape> w;
+                  GradientLanes<Real> gradient;
+                  for (long first = begin; first < end; first += L) {
+                    const int count = static_cast<int>(std::min<long>(L, end - first));
+                    ask_ahead(stretch, first);
+                    w.weigh(at, first);
+                    gather_gradients(w, stretch, first, count, again, nx, gradient);
+                    update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+                    exec::for_lanes(count, [&](int k) RIVEN_LANE {
+                      p.x[first + k] += p.step_x[first + k];
+                      p.y[first + k] += p.step_y[first + k];
+                    });
+                  }
                 });
-              }
-            });
   watch_J(s);
 }
 
@@ -146,5 +150,7 @@ void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Re
   template void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_UPDATE_STRESS)
 #undef RIVEN_UPDATE_STRESS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

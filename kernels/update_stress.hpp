@@ -5,6 +5,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Before the momentum update (USF, USAVG): strains from Grid::q = [vx vy . .], then the forces of the new stresses
 /// into the same groups.
 template <class Real>
@@ -14,5 +16,7 @@ void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, 
 /// Particles::step.
 template <class Real>
 void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -7,6 +7,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Particle arrays; null where the plan did not ask for an array.
 template <class Real>
 struct ParticleView {
@@ -20,25 +22,49 @@ struct ParticleView {
 
 template <class Real>
 ParticleView<Real> view(Particles<Real, 2>& p) {
-  return {p.x[0].data(),      p.x[1].data(),      p.v[0].data(), p.v[1].data(),    p.F[0].data(),
-          p.F[1].data(),      p.F[2].data(),      p.F[3].data(), p.J.data(),       p.stress[0].data(),
-          p.stress[1].data(), p.stress[2].data(), p.mass.data(), p.step[0].data(), p.step[1].data()};
+  return {exec::data(p.x[0]), exec::data(p.x[1]),      exec::data(p.v[0]),      exec::data(p.v[1]),
+          exec::data(p.F[0]), exec::data(p.F[1]),      exec::data(p.F[2]),      exec::data(p.F[3]),
+          exec::data(p.J),    exec::data(p.stress[0]), exec::data(p.stress[1]), exec::data(p.stress[2]),
+          exec::data(p.mass), exec::data(p.step[0]),   exec::data(p.step[1])};
+}
+
+/// The same to be read.
+template <class Real>
+struct ParticleReads {
+  const double *x, *y;
+  const Real *vx, *vy;
+  const double *Fxx, *Fxy, *Fyx, *Fyy, *J;
+  const Real *sxx, *syy, *sxy;
+  const Real* mass;
+};
+
+template <class Real>
+ParticleReads<Real> reads(const Particles<Real, 2>& p) {
+  return {exec::data(p.x[0]), exec::data(p.x[1]),      exec::data(p.v[0]),      exec::data(p.v[1]),
+          exec::data(p.F[0]), exec::data(p.F[1]),      exec::data(p.F[2]),      exec::data(p.F[3]),
+          exec::data(p.J),    exec::data(p.stress[0]), exec::data(p.stress[1]), exec::data(p.stress[2]),
+          exec::data(p.mass)};
 }
 
 template <class Real>
 Positions<Real> positions(const State<Real, 2>& s) {
   const Lattice& l = s.grid.lattice;
-  return {s.particles.x[0].data(),
-          s.particles.x[1].data(),
+  return {exec::data(s.particles.x[0]),
+          exec::data(s.particles.x[1]),
           l.origin.x,
           l.origin.y,
           1 / l.h,
-          {s.domains.data(), s.particles.body.data(), s.domains.size() == 1}};
+          {exec::data(s.domains), exec::data(s.particles.body), s.domains.size() == 1}};
 }
 
 /// `shared`: several tiles may write to a slot at once.
 inline CrossingSlots crossing_slots(const CrackFields& f, const Lattice& l, bool shared = false) {
-  return {f.tile_marked.data(), f.crossing.data(), f.block_slots.data(), f.slots.data(), l.nodes(), shared};
+  return {exec::data(f.tile_marked),
+          exec::data(f.crossing),
+          exec::data(f.block_slots),
+          exec::data(f.slots),
+          l.nodes(),
+          shared};
 }
 template <class Real>
 CrossingSlots crossing_slots(const State<Real, 2>& s, bool shared = false) {
@@ -48,18 +74,20 @@ CrossingSlots crossing_slots(const State<Real, 2>& s, bool shared = false) {
 template <class Law, class Real>
 const Law* law_table(const LawTables<Real>& t) {
   if constexpr (std::is_same_v<Law, LinearElastic<Real>>)
-    return t.linear.data();
+    return exec::data(t.linear);
   else if constexpr (std::is_same_v<Law, LinearElasticF<Real>>)
-    return t.linear_F.data();
+    return exec::data(t.linear_F);
   else if constexpr (std::is_same_v<Law, NeoHookean<Real>>)
-    return t.neo.data();
+    return exec::data(t.neo);
   else
-    return t.any.data();
+    return exec::data(t.any);
 }
 
 template <class Law, class Real>
 BodyLookup<Law> laws(const State<Real, 2>& s) {
-  return {law_table<Law>(s.laws), s.particles.body.data(), s.domains.size() == 1};
+  return {law_table<Law>(s.laws), exec::data(s.particles.body), s.domains.size() == 1};
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

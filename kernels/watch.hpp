@@ -4,21 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/exec/config.hpp"
 #include "core/state/state.hpp"
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Of one tile, lane by lane, so that noticing stays in the vectorised loops.
 template <class Real>
 struct TileWatch {
   static constexpr int lanes = exec::lanes;
-  alignas(64) Real move[lanes] = {};    ///< largest |dx| along an axis
-  alignas(64) Real sum[lanes] = {};     ///< finite as long as every move is
-  alignas(64) Real J[lanes];            ///< least det F; NaN sticks
-  alignas(64) double worn[lanes] = {};  ///< J
-  alignas(64) Real apart[lanes] = {};   ///< largest difference of velocities along an axis
+  alignas(exec::line) Real move[lanes] = {};    ///< largest |dx| along an axis
+  alignas(exec::line) Real sum[lanes] = {};     ///< finite as long as every move is
+  alignas(exec::line) Real J[lanes];            ///< least det F; NaN sticks
+  alignas(exec::line) double worn[lanes] = {};  ///< J
+  alignas(exec::line) Real apart[lanes] = {};   ///< largest difference of velocities along an axis
 
   RIVEN_INLINE TileWatch() {
     for (Real& j : J)
@@ -39,40 +42,43 @@ struct WatchTiles {
   /// `wears`: the transfer takes energy, which is to be noticed.
   /// `apart`: velocities of particles and grid are compared.
   explicit WatchTiles(StepWatch& w, bool wears = false, bool apart = false)
-      : move(w.tile_move.data()),
-        J(w.tile_J.data()),
-        finite(w.tile_finite.data()),
-        worn(wears ? w.tile_worn.data() : nullptr),
-        apart(apart ? w.tile_apart.data() : nullptr) {}
+      : move(Moves ? exec::data(w.tile_move) : nullptr),
+        J(Dets ? exec::data(w.tile_J) : nullptr),
+        finite(Moves ? exec::data(w.tile_finite) : nullptr),
+        worn(wears ? exec::data(w.tile_worn) : nullptr),
+        apart(apart ? exec::data(w.tile_apart) : nullptr) {}
 
-  RIVEN_INLINE void put(int tile, const Seen& t) const {
+  /// What `count` threads noticed of a tile.
+  RIVEN_INLINE void put(int tile, const Seen* t, int count = 1) const {
     if constexpr (Moves)
-      put_moves(tile, t);
+      put_moves(tile, t, count);
     if constexpr (Dets)
-      put_J(tile, t);
+      put_J(tile, t, count);
   }
 
  private:
-  RIVEN_INLINE void put_moves(int tile, const Seen& t) const {
-    Real most = 0, all = 0;
-    for (int k = 0; k < t.lanes; ++k) {
-      most = std::max(most, t.move[k]);
-      all += t.sum[k];
-    }
+  RIVEN_INLINE void put_moves(int tile, const Seen* seen, int count) const {
+    Real most = 0, all = 0, far = 0;
+    double taken = 0;
+    for (const Seen* t = seen; t < seen + count; ++t)
+      for (int k = 0; k < t->lanes; ++k) {
+        most = std::max(most, t->move[k]);
+        all += t->sum[k];
+        far = std::max(far, t->apart[k]);
+        taken += t->worn[k];
+      }
     move[tile] = most;
     finite[tile] = all;
     if (apart)
-      apart[tile] = *std::max_element(t.apart, t.apart + t.lanes);
-    if (!worn)
-      return;
-    worn[tile] = 0;
-    for (const double taken : t.worn)
-      worn[tile] += taken;
+      apart[tile] = far;
+    if (worn)
+      worn[tile] = taken;
   }
-  RIVEN_INLINE void put_J(int tile, const Seen& t) const {
-    Real least = t.J[0];
-    for (int k = 1; k < t.lanes; ++k)
-      least = least < t.J[k] || least != least ? least : t.J[k];
+  RIVEN_INLINE void put_J(int tile, const Seen* seen, int count) const {
+    Real least = seen->J[0];
+    for (const Seen* t = seen; t < seen + count; ++t)
+      for (int k = 0; k < t->lanes; ++k)
+        least = least < t->J[k] || least != least ? least : t->J[k];
     J[tile] = least;
   }
   double *move, *J, *finite, *worn, *apart;
@@ -81,7 +87,7 @@ struct WatchTiles {
 /// Notices nothing.
 struct WatchNothing {
   struct Seen {};
-  RIVEN_INLINE void put(int, const Seen&) const {}
+  RIVEN_INLINE void put(int, const Seen*, int = 1) const {}
 };
 
 /// Whether particles' velocities are compared with the grid's in a step: now and then is enough.
@@ -93,17 +99,19 @@ inline bool velocities_compared(long step) {
 template <class Real>
 void watch_moves(State<Real, 2>& s) {
   StepWatch& w = s.watch;
+  const StepWatch& seen = s.watch;
+  const exec::Array<int>& filled = std::as_const(s.particles.tiles.filled);
   double move = 0, sum = 0, worn = 0;
-  for (int t : s.particles.tiles.filled) {
-    move = std::max(move, w.tile_move[t]);
-    sum += w.tile_finite[t];
-    worn += w.tile_worn[t];
+  for (int t : filled) {
+    move = std::max(move, seen.tile_move[t]);
+    sum += seen.tile_finite[t];
+    worn += seen.tile_worn[t];
   }
   s.ledger.energy.transfer += worn;
   if (velocities_compared(s.clock.step)) {
     w.velocity_difference = 0;
-    for (int t : s.particles.tiles.filled)
-      w.velocity_difference = std::max(w.velocity_difference, w.tile_apart[t]);
+    for (int t : filled)
+      w.velocity_difference = std::max(w.velocity_difference, seen.tile_apart[t]);
   }
   w.largest_move = std::isfinite(sum) ? move : std::numeric_limits<double>::quiet_NaN();
   w.drift += w.largest_move;
@@ -113,11 +121,14 @@ void watch_moves(State<Real, 2>& s) {
 template <class Real>
 void watch_J(State<Real, 2>& s) {
   double least = std::numeric_limits<double>::max();
-  for (int t : s.particles.tiles.filled) {
-    const double J = s.watch.tile_J[t];
+  const StepWatch& seen = s.watch;
+  for (int t : std::as_const(s.particles.tiles.filled)) {
+    const double J = seen.tile_J[t];
     least = least < J || least != least ? least : J;
   }
   s.watch.least_J = least;
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

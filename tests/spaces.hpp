@@ -21,9 +21,13 @@ struct SpaceCase {
 /// threads, whether or not the machine has as many cores.
 inline std::vector<SpaceCase> space_cases() {
   using enum exec::Kind;
-  return {{serial, 1, ScatterKind::ordered}, {openmp, 1, ScatterKind::ordered}, {openmp, 2, ScatterKind::ordered},
-          {openmp, 4, ScatterKind::ordered}, {stdpar, 2, ScatterKind::ordered}, {stdpar, 4, ScatterKind::ordered},
-          {serial, 1, ScatterKind::atomic},  {openmp, 2, ScatterKind::atomic},  {stdpar, 2, ScatterKind::atomic}};
+  std::vector<SpaceCase> cases{
+      {serial, 1, ScatterKind::ordered}, {openmp, 1, ScatterKind::ordered}, {openmp, 2, ScatterKind::ordered},
+      {openmp, 4, ScatterKind::ordered}, {stdpar, 2, ScatterKind::ordered}, {stdpar, 4, ScatterKind::ordered},
+      {serial, 1, ScatterKind::atomic},  {openmp, 2, ScatterKind::atomic},  {stdpar, 2, ScatterKind::atomic}};
+  if (exec::available(cuda))
+    cases.insert(cases.end(), {{cuda, 2, ScatterKind::ordered}, {cuda, 2, ScatterKind::atomic}});
+  return cases;
 }
 
 }  // namespace riven::test

@@ -1,4 +1,5 @@
-// Array owns memory; View is what a kernel takes: a pointer and a length, trivially copyable.
+// Array owns memory; View is what a kernel takes: a pointer and a length, trivially copyable. Where there is a device
+// an array has a mirror there, made once a kernel asks for it: data(array) is what kernels of either side work on.
 #pragma once
 #include <cstdlib>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "core/exec/config.hpp"
+#include "core/exec/mirror.hpp"
 
 namespace riven::exec {
 
@@ -26,7 +28,7 @@ class Array {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  static constexpr long padding = 2 * lanes;
+  static constexpr long padding = 2 * block;
 
   Array() = default;
   explicit Array(long n) { resize(n); }
@@ -37,7 +39,7 @@ class Array {
       return *this;
     resize(o.size_);
     if (size_)
-      std::memcpy(static_cast<void*>(data_), o.data_, static_cast<size_t>(size_) * sizeof(T));
+      std::memcpy(static_cast<void*>(data()), o.data(), bytes_held());
     return *this;
   }
   Array& operator=(Array&& o) noexcept { return swap(o), *this; }
@@ -45,6 +47,9 @@ class Array {
 
   /// New size; the items that fit are kept, new ones are zero.
   void resize(long n) {
+    if (n == size_ && data_)
+      return;
+    written_here();
     if (n > capacity_ || !data_)
       move_to_room_for(n > capacity_ + capacity_ / 2 ? n : capacity_ + capacity_ / 2);
     else if (n > size_)
@@ -53,39 +58,99 @@ class Array {
   }
   /// Room for n items and no more, where there is not as much: for large arrays that grow by little.
   void reserve(long n) {
-    if (n > capacity_)
+    if (n > capacity_) {
+      written_here();
       move_to_room_for(n);
+    }
   }
   void clear() { resize(0); }
   void zero() {
     if (size_)
-      std::memset(static_cast<void*>(data_), 0, static_cast<size_t>(size_) * sizeof(T));
+      std::memset(static_cast<void*>(data()), 0, bytes_held());
   }
   void swap(Array& o) noexcept {
     std::swap(data_, o.data_);
     std::swap(size_, o.size_);
     std::swap(capacity_, o.capacity_);
+#if defined(RIVEN_DEVICE)
+    mirror_.swap(o.mirror_);
+#endif
   }
 
-  long size() const { return size_; }
-  long capacity() const { return capacity_; }
-  bool empty() const { return size_ == 0; }
-  long bytes() const { return data_ ? (capacity_ + padding) * static_cast<long>(sizeof(T)) : 0; }
-  T* data() { return data_; }
-  const T* data() const { return data_; }
-  T& operator[](long i) { return data_[i]; }
-  const T& operator[](long i) const { return data_[i]; }
-  T* begin() { return data_; }
-  T* end() { return data_ + size_; }
-  const T* begin() const { return data_; }
-  const T* end() const { return data_ + size_; }
-  View<T> view() { return {data_, size_}; }
-  View<const T> view() const { return {data_, size_}; }
+  long size() const {
+    return size_;
+  }
+  long capacity() const {
+    return capacity_;
+  }
+  bool empty() const {
+    return size_ == 0;
+  }
+  long bytes() const {
+    return data_ ? (capacity_ + padding) * static_cast<long>(sizeof(T)) : 0;
+  }
+  T* data() {
+    return written_here(), data_;
+  }
+  const T* data() const {
+    return read_here(), data_;
+  }
+  T& operator[](long i) {
+    return data()[i];
+  }
+  const T& operator[](long i) const {
+    return data()[i];
+  }
+  T* begin() {
+    return data();
+  }
+  T* end() {
+    return data() + size_;
+  }
+  const T* begin() const {
+    return data();
+  }
+  const T* end() const {
+    return data() + size_;
+  }
+
+#if defined(RIVEN_DEVICE)
+  // The same on the device: to be read, to be written too, to be written whole.
+  const T* device_data() const {
+    return data_ ? static_cast<const T*>(mirror_.device_reads(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
+  }
+  T* device_data() {
+    return data_ ? static_cast<T*>(mirror_.device_writes(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
+  }
+  T* device_data_to_fill() {
+    return data_ ? static_cast<T*>(mirror_.device_overwrites(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
+  }
+#endif
 
  private:
+  size_t bytes_held() const {
+    return static_cast<size_t>(size_) * sizeof(T);
+  }
+  /// Of memory for so many items, with the padding, in whole lines.
+  static size_t bytes_of(long items) {
+    return (static_cast<size_t>(items + padding) * sizeof(T) + 63) / 64 * 64;
+  }
+
+  // What is here is about to be read, or written.
+  void read_here() const {
+#if defined(RIVEN_DEVICE)
+    mirror_.host_reads(data_, bytes_held());
+#endif
+  }
+  void written_here() {
+#if defined(RIVEN_DEVICE)
+    mirror_.host_writes(data_, bytes_held());
+#endif
+  }
+
   /// The items that there are stay, what is behind them is zero.
   void move_to_room_for(long items) {
-    const size_t bytes = (static_cast<size_t>(items + padding) * sizeof(T) + 63) / 64 * 64;
+    const size_t bytes = bytes_of(items);
     T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes));
     if (!fresh)
       throw std::bad_alloc();
@@ -101,6 +166,44 @@ class Array {
   T* data_ = nullptr;
   long size_ = 0;
   long capacity_ = 0;
+#if defined(RIVEN_DEVICE)
+  mutable Mirror mirror_;
+#endif
 };
+
+inline namespace RIVEN_SIDE {
+
+/// What kernels of this side work on: to be written where the array is not const.
+template <class T>
+const T* data(const Array<T>& array) {
+#if defined(RIVEN_ON_DEVICE)
+  return array.device_data();
+#else
+  return array.data();
+#endif
+}
+template <class T>
+T* data(Array<T>& array) {
+#if defined(RIVEN_ON_DEVICE)
+  return array.device_data();
+#else
+  return array.data();
+#endif
+}
+/// The same of an array that the kernel writes whole, and of which it reads nothing.
+template <class T>
+T* data_to_fill(Array<T>& array) {
+#if defined(RIVEN_ON_DEVICE)
+  return array.device_data_to_fill();
+#else
+  return array.data();
+#endif
+}
+template <class T>
+View<const T> view(const Array<T>& array) {
+  return {data(array), array.size()};
+}
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven::exec

@@ -2,15 +2,26 @@
 #pragma once
 #include <cstdint>
 
+// The side that a translation unit is compiled for. Where there is a device, kernels are compiled twice: as they are,
+// and for the device, with what differs there (RIVEN_ON_DEVICE). What the two do not share lies in the inline namespace
+// of its side: RIVEN_SIDE. Data and laws are the same on both.
+#if defined(RIVEN_ON_DEVICE)
+#define RIVEN_SIDE on_device
+#else
+#define RIVEN_SIDE on_host
+#endif
+
 #if defined(__CUDACC__)
 #define RIVEN_FN __host__ __device__
 #define RIVEN_INLINE __host__ __device__ __forceinline__
 #define RIVEN_LANE
+#define RIVEN_KERNEL __device__
 #define RIVEN_OUTLINE __host__ __device__ inline
 #else
 #define RIVEN_FN
 #define RIVEN_INLINE __attribute__((always_inline)) inline
 #define RIVEN_LANE __attribute__((always_inline))       // bodies of for_lanes: without it they are called lane by lane
+#define RIVEN_KERNEL                                    // what is launched, and what works with a team
 #define RIVEN_OUTLINE __attribute__((noinline)) inline  // rare paths, kept out of the loops that matter
 #endif
 
@@ -33,6 +44,11 @@
 
 namespace riven::exec {
 
+/// Particles that are taken together on the CPU, and of whom lists say together what they have in common.
+inline constexpr int block = 16;
+
+inline namespace RIVEN_SIDE {
+
 /// Asks for data at p, needed soon. Functions that only ask are to be RIVEN_INLINE, or GCC drops the calls to them.
 RIVEN_INLINE void prefetch([[maybe_unused]] const void* p) {
 #if !defined(__CUDA_ARCH__)
@@ -49,11 +65,14 @@ RIVEN_INLINE void prefetch_far([[maybe_unused]] const void* p) {
 
 /// Particles taken together by one trip through a kernel's body. On the CPU the compiler turns the
 /// trips into vector instructions; a GPU thread takes one particle.
-#if defined(__CUDACC__)
+#if defined(RIVEN_ON_DEVICE)
 inline constexpr int lanes = 1;
 #else
-inline constexpr int lanes = 16;
+inline constexpr int lanes = block;
 #endif
+
+/// Alignment of what holds one number for each lane.
+inline constexpr int line = lanes > 1 ? 64 : alignof(double);
 
 /// body(k) for k in [0, count); vectorised when the block is full.
 /// The body must be free of branches that the compiler cannot turn into blends.
@@ -70,5 +89,7 @@ RIVEN_INLINE void for_lanes(int count, Body&& body) {
       body(k);
   }
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven::exec

@@ -1,5 +1,9 @@
-// parallel_for and parallel_reduce over a runtime-chosen space, Kokkos-style.
+// parallel_for and parallel_reduce over a runtime-chosen space, Kokkos-style. Code of the host's side runs on its
+// threads, whatever the space; code of the device's side there (parallel_on_device.hpp).
 #pragma once
+#if defined(RIVEN_ON_DEVICE)
+#include "core/exec/parallel_on_device.hpp"
+#else
 #include <omp.h>
 
 #include <algorithm>
@@ -7,11 +11,14 @@
 #include <execution>
 #include <vector>
 
+#include "core/exec/array.hpp"
 #include "core/exec/config.hpp"
 #include "core/exec/counting.hpp"
 #include "core/exec/space.hpp"
 
 namespace riven::exec {
+
+inline namespace RIVEN_SIDE {
 
 /// Every space calls the same machine code: inlined into each space's loop, a sum of products may be fused to
 /// multiply-adds in one and not in another, and the last bits differ.
@@ -57,7 +64,8 @@ void launch(const Space& space, long n, const F& f) {
       for (long i = 0; i < n; ++i)
         run_task(f, i);
       break;
-    case Kind::openmp: detail::launch_openmp(space.threads(), n, f); break;
+    case Kind::openmp:
+    case Kind::cuda: detail::launch_openmp(space.threads(), n, f); break;
     case Kind::stdpar:
       // par, not par_unseq: kernels may use atomics
       space.arena().execute(
@@ -102,8 +110,8 @@ template <class... Arrays>
 void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
   constexpr long piece = 1L << 19;  // bytes
   const long pieces = ((arrays.size() * long{sizeof(*arrays.data())}) + ...) / piece + 1;
-  parallel_tasks(space, label, pieces, [=, ... view = arrays.view()](long c) {
-    (std::fill(view.data + view.size * c / pieces, view.data + view.size * (c + 1) / pieces, 0), ...);
+  parallel_tasks(space, label, pieces, [=, ... all = arrays.data(), ... size = arrays.size()](long c) {
+    (std::fill(all + size * c / pieces, all + size * (c + 1) / pieces, 0), ...);
   });
 }
 
@@ -132,4 +140,8 @@ T parallel_reduce(const Space& space, const char* label, long n, const F& f) {
   return parallel_sum<T>(space, label, n, [&](long i, T& sum) { sum += f(i); });
 }
 
+}  // namespace RIVEN_SIDE
+
 }  // namespace riven::exec
+
+#endif

@@ -9,17 +9,20 @@
 
 namespace riven::exec {
 
-enum class Kind { serial, openmp, stdpar };
+enum class Kind { serial, openmp, stdpar, cuda };
 
-/// A place to run kernels, with its thread count and the timers that every launch reports to.
+/// A place to run kernels, with its thread count and the timers that every launch reports to. With a device the threads
+/// are those of what runs beside it on the host.
 class Space {
  public:
+  /// Throws Error (bad input) for a device that is not there.
   explicit Space(Kind kind = Kind::serial, int threads = 1);
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
 
   Kind kind() const { return kind_; }
   int threads() const { return threads_; }
+  bool on_device() const { return kind_ == Kind::cuda; }
   Timers& timers() const { return timers_; }
   /// TBB's threads of this space; only with StdPar.
   tbb::task_arena& arena() const { return *arena_; }
@@ -31,7 +34,9 @@ class Space {
   mutable Timers timers_;
 };
 
-/// "serial", "openmp", "stdpar".
+/// Whether such a space can be made here; else `why_not` says what is missing.
+bool available(Kind kind, std::string* why_not = nullptr);
+/// "serial", "openmp", "stdpar", "cuda".
 const char* name(Kind kind);
 /// Inverse of name(); false when the name is unknown.
 bool parse(const std::string& text, Kind& kind);

@@ -73,8 +73,10 @@ RIVEN_NAMES(Watched, {{Watched::energy, "energy"},
                       {Watched::expansion, "expansion"},
                       {Watched::penetration, "penetration"},
                       {Watched::velocity_difference, "velocity_difference"}})
-RIVEN_NAMES(exec::Kind,
-            {{exec::Kind::serial, "serial"}, {exec::Kind::openmp, "openmp"}, {exec::Kind::stdpar, "stdpar"}})
+RIVEN_NAMES(exec::Kind, {{exec::Kind::serial, "serial"},
+                         {exec::Kind::openmp, "openmp"},
+                         {exec::Kind::stdpar, "stdpar"},
+                         {exec::Kind::cuda, "cuda"}})
 #undef RIVEN_NAMES
 
 template <class E>

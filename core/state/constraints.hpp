@@ -44,6 +44,7 @@ struct Constraints {
   std::vector<Constraint> fixed;  ///< known from the start
   std::vector<GripBlock> grips;
   exec::Array<Constraint> list;  ///< of this step
+  exec::Array<Vec2> now, next;   ///< [owners] velocities at the start and the end of this step, m/s
   exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
   /// [2 fields list] kg m/s, change of momentum of each field and component before the update, in it, and after the
   /// second extrapolation.

@@ -131,7 +131,7 @@ struct CrackLists {
 struct CrackFields : CrackLists {
   static constexpr int bits = most_held;  ///< of a field number
   static_assert(9 * bits <= 32);          // all neighbours of a particle in one of `fields`
-  static_assert(exec::lanes <= 16);       // bits in `crossing`
+  static_assert(exec::block <= 16);       // bits in `crossing`
   static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
 
   exec::Array<NodeNormals> normals;        ///< [flagged]
@@ -172,7 +172,7 @@ struct CrackFields : CrackLists {
     return static_cast<int>(word >> (bits * neighbour) & ((1u << bits) - 1));
   }
   /// Number of the block that begins with particle `first`, in the marked tile of this number.
-  static RIVEN_INLINE long block_of(long first, long marked) { return first / exec::lanes + marked; }
+  static RIVEN_INLINE long block_of(long first, long marked) { return first / exec::block + marked; }
 };
 
 }  // namespace riven

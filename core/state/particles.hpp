@@ -16,8 +16,8 @@ namespace riven {
 struct Tiles {
   exec::Array<int> start;       ///< [tiles + 1] first particle of each tile
   exec::Array<int> cell_start;  ///< [cells + 1] and of each cell, by Lattice::sorted_cell (contact, J)
-  std::vector<int> filled;      ///< tiles that hold particles, ascending
-  std::vector<int> by_colour;   ///< the same, colour after colour
+  exec::Array<int> filled;      ///< tiles that hold particles, ascending
+  exec::Array<int> by_colour;   ///< the same, colour after colour
   int colour_start[5] = {0, 0, 0, 0, 0};
   long order = 0;  ///< counts the sorts: while it stays, so does every particle's place
 };

@@ -1,0 +1,46 @@
+#include <new>
+#include <string>
+
+#include "core/exec/device.hpp"
+#include "core/exec/device/check_cuda.hpp"
+
+namespace riven::exec::device {
+
+Found find() {
+  int count = 0;
+  if (const cudaError_t result = cudaGetDeviceCount(&count); result != cudaSuccess || count == 0)
+    return {false,
+            std::string("no CUDA device: ") + (result == cudaSuccess ? "none is there" : cudaGetErrorString(result))};
+  cudaDeviceProp properties;
+  check(cudaGetDeviceProperties(&properties, 0), "look for a device");
+  return {true, properties.name};
+}
+
+void* allocate(size_t bytes) {
+  void* there = nullptr;
+  check(cudaMalloc(&there, bytes), "allocate");
+  return there;
+}
+
+void release(void* there) noexcept {
+  cudaFree(there);  // what was launched is over, or the launch after it says so
+}
+
+void to_device(void* there, const void* here, size_t bytes) {
+  check(cudaMemcpy(there, here, bytes, cudaMemcpyHostToDevice), "copy to the device");
+}
+
+void to_host(void* here, const void* there, size_t bytes) {
+  check(cudaMemcpy(here, there, bytes, cudaMemcpyDeviceToHost), "copy from the device");
+}
+
+void zero(void* there, size_t bytes) {
+  if (bytes)
+    check(cudaMemsetAsync(there, 0, bytes), "zero");
+}
+
+void wait() {
+  check(cudaDeviceSynchronize(), "wait");
+}
+
+}  // namespace riven::exec::device

@@ -1,0 +1,41 @@
+// A device for tests where there is none: memory apart from the host's, and threads that are taken in turn. What runs
+// here has been through the same kernels, copies and teams as on a GPU; races and alignment are not seen.
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "core/exec/device.hpp"
+
+namespace riven::exec::device {
+
+Found find() {
+  return {true, "emulated"};
+}
+
+void* allocate(size_t bytes) {
+  void* there = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
+  if (!there)
+    throw std::bad_alloc();
+  std::memset(there, 0xff, bytes);
+  return there;
+}
+
+void release(void* there) noexcept {
+  std::free(there);
+}
+
+void to_device(void* there, const void* here, size_t bytes) {
+  std::memcpy(there, here, bytes);
+}
+
+void to_host(void* here, const void* there, size_t bytes) {
+  std::memcpy(here, there, bytes);
+}
+
+void zero(void* there, size_t bytes) {
+  std::memset(there, 0, bytes);
+}
+
+void wait() {}
+
+}  // namespace riven::exec::device

@@ -1,0 +1,56 @@
+// The copy of an array's memory that a device works on, and which of the two copies is the newer one. Whoever reads or
+// writes says so first; what is old there is then copied over. So a kernel that runs on the host between kernels on the
+// device is right without knowing of them, and what nobody asks for on the other side is never copied.
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <utility>
+
+namespace riven::exec {
+
+class Mirror {
+ public:
+  Mirror() = default;
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
+  ~Mirror() { forget(); }
+
+  void swap(Mirror& o) noexcept {
+    std::swap(there_, o.there_);
+    std::swap(room_, o.room_);
+    newer_.store(o.newer_.exchange(newer_.load()));
+  }
+
+  /// The host is about to read `bytes` from `here`.
+  void host_reads(void* here, size_t bytes) {
+    if (newer_.load(std::memory_order_acquire) == Newer::device)
+      fetch(here, bytes);
+  }
+  /// And to write there.
+  void host_writes(void* here, size_t bytes) {
+    if (newer_.load(std::memory_order_acquire) == Newer::host)
+      return;
+    host_reads(here, bytes);
+    newer_.store(Newer::host, std::memory_order_release);
+  }
+  /// Where the device is to read, or to write too. `room`: bytes that it needs there.
+  void* device_reads(const void* here, size_t bytes, size_t room);
+  void* device_writes(void* here, size_t bytes, size_t room);
+  /// The same where the device is about to write all that there is.
+  void* device_overwrites(void* here, size_t bytes, size_t room);
+
+  /// The host's copy is the only one from now on, and there are other numbers in it.
+  void forget() noexcept;
+
+ private:
+  enum class Newer { host, neither, device };
+
+  void fetch(void* here, size_t bytes);
+  void make_room(size_t room);
+
+  void* there_ = nullptr;
+  size_t room_ = 0;
+  std::atomic<Newer> newer_{Newer::host};
+};
+
+}  // namespace riven::exec
