@@ -1,191 +1,99 @@
 #include "kernels/apply_loads.hpp"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include <algorithm>
-#include <cmath>
-#include <unordered_map>
-
-#include "core/error.hpp"
 #include "core/exec/parallel.hpp"
 #include "kernels/block.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
+#include "kernels/make_loads.hpp"
+#include "kernels/views.hpp"
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
-/// Particles that have no neighbour of their own body on the loaded side, with the edge length that each carries.
-template <class Real>
-void load_edge(const Scene& scene, const State<Real, 2>& s, const Load& load, LoadGroup& group) {
-  const auto& p = s.particles;
-  const bool along_x = load.edge == Load::Edge::left || load.edge == Load::Edge::right;
-  const int sign = load.edge == Load::Edge::right || load.edge == Load::Edge::top ? 1 : -1;
-  const Lattice& l = s.grid.lattice;
-  // places on each body's own lattice of particles
-  const auto place = [&](long i, double d) {
-    const long a = std::lround((p.x[0][i] - l.origin.x) / d - 0.5), b = std::lround((p.x[1][i] - l.origin.y) / d - 0.5);
-    return std::pair{a, b};
-  };
-  const auto key = [&](int body, long a, long b) { return (long{body} << 56) ^ (a << 28) ^ b; };
-  std::unordered_map<long, bool> taken;
-  const auto spacing = [&](long i) { return l.h / scene.bodies[p.body[i]].particles_per_cell; };
-  for (long i = 0; i < p.count(); ++i) {
-    const auto [a, b] = place(i, spacing(i));
-    taken[key(p.body[i], a, b)] = true;
+/// Momentum that loads give in a step, and its moment about the origin, over the step.
+struct Push {
+  Vec2 force;
+  double torque = 0;
+  RIVEN_FN Push& operator+=(const Push& o) {
+    force += o.force;
+    torque += o.torque;
+    return *this;
   }
-  for (long i = 0; i < p.count(); ++i) {
-    if (!contains(load.region, {p.x[0][i], p.x[1][i]}))
-      continue;
-    const double d = spacing(i);
-    auto [a, b] = place(i, d);
-    (along_x ? a : b) += sign;
-    if (taken.count(key(p.body[i], a, b)))
-      continue;
-    const Body& body = scene.bodies[p.body[i]];
-    group.id.push_back(p.id[i]);
-    group.share.push_back(d * (body.thickness > 0 ? body.thickness : scene.thickness));
-  }
-}
+};
 
-/// The particles of the load's region, and what each carries of a force (the same part) or feels of an acceleration
-/// (its mass).
-template <class Real>
-void load_region(const Particles<Real, 2>& p, const Load& load, LoadGroup& group) {
-  const bool force = load.kind == Load::Kind::force;
-  for (long i = 0; i < p.count(); ++i)
-    if (contains(load.region, {p.x[0][i], p.x[1][i]})) {
-      group.id.push_back(p.id[i]);
-      group.share.push_back(force ? 1 : double(p.mass[i]));
-    }
-  if (force)
-    for (double& share : group.share)
-      share = 1 / static_cast<double>(group.id.size());
-}
-
-/// Fields must be numbers where they act: at the start, in the middle and at the end of the run.
-void check_values(const Scene& scene, const Load& load, const LoadGroup& g) {
-  for (const double t : {0.0, 0.5 * scene.end_time, scene.end_time})
-    for (const Field& f : g.value) {
-      const std::vector<double> v = f.at(t, g.first);
-      const auto bad = std::find_if(v.begin(), v.end(), [](double x) { return !std::isfinite(x); });
-      if (bad == v.end())
-        continue;
-      const auto i = static_cast<size_t>(bad - v.begin());
-      fail({Exit::bad_input, "the load is not a number everywhere", "load \"" + load.name + "\"",
-            fmt::format("{} at ({:.6g}, {:.6g}) m, {:.6g} s", *bad, g.first.X[i], g.first.Y[i], t),
-            "finite wherever it acts", ""});
-    }
-}
-
-/// What each particle of the group bears at a time, N.
-void find_forces(const exec::Space& space, const LoadGroup& g, double t, Vec2* force) {
-  if (g.first.count() == 0) {
-    const Vec2 all{g.value[0](t), g.value[1](t)};
-    for (size_t k = 0; k < g.id.size(); ++k)
-      force[k] = g.share[k] * all;
-    return;
-  }
-  constexpr long block = 512;
-  const long n = g.first.count();
-  exec::parallel_tasks(space, "loads", (n + block - 1) / block, [&](long b) {
-    double v[2][block] = {};
-    const long first = b * block, count = std::min(block, n - first);
-    for (const int axis : {0, 1})
-      g.value[axis].at(t, count, g.first.X.data() + first, g.first.Y.data() + first, v[axis]);
-    for (long k = 0; k < count; ++k)
-      force[first + k] = g.share[static_cast<size_t>(first + k)] * Vec2{v[0][k], v[1][k]};
-  });
-}
-
-/// Spreads the force of the particle at x to the nodes of its field.
+/// Spreads the forces on particles to the nodes of their fields.
 template <class Shape, class Real>
-void spread(State<Real, 2>& s, const FieldSlots& slots, long i, Vec2 x, Vec2 force) {
-  const Lattice& l = s.grid.lattice;
-  const DomainSetting<Real, 2>& d = s.domains[s.particles.body[i]];
-  const auto a = Shape::axis((x.x - l.origin.x) / l.h, d.axis[0]);
-  const auto b = Shape::axis((x.y - l.origin.y) / l.h, d.axis[1]);
-  const std::uint32_t word = s.fields.extra.empty() ? 0 : s.fields.fields[i];
-  for (int j = 0; j < Shape::width; ++j)
-    for (int m = 0; m < Shape::width; ++m) {
-      const int node = (b.base + j) * l.nx + a.base + m;
-      Real* q = s.grid.q.data() + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + m));
-      q[2] += Real(force.x) * a.s[m] * b.s[j];
-      q[3] += Real(force.y) * a.s[m] * b.s[j];
-    }
+void spread(const exec::Space& space, ScatterKind kind, State<Real, 2>& s) {
+  const Lattice l = s.grid.lattice;
+  const FieldSlots slots(s.fields, l.nodes());
+  const Positions<Real> at = positions(s);
+  const std::uint32_t* fields = s.fields.extra.empty() ? nullptr : exec::data(std::as_const(s.fields.fields));
+  const int *loaded = exec::data(std::as_const(s.loads.loaded)),
+            *position = exec::data(std::as_const(s.loads.position));
+  const Vec2* force = exec::data(std::as_const(s.loads.force));
+  Vec2* applied_at = exec::data_to_fill(s.loads.applied_at);
+  Real* q = exec::data(s.grid.q);
+  exec::scatter_for(space, "loads", kind == ScatterKind::ordered, s.loads.loaded.size(), [=] RIVEN_KERNEL(long n) {
+    const long i = position[loaded[n]];
+    const DomainSetting<Real, 2>& d = at.domain.of(i);
+    const auto a = Shape::axis((at.x[i] - l.origin.x) / l.h, d.axis[0]);
+    const auto b = Shape::axis((at.y[i] - l.origin.y) / l.h, d.axis[1]);
+    const std::uint32_t word = fields ? fields[i] : 0;
+    applied_at[n] = {at.x[i], at.y[i]};
+    for (int j = 0; j < Shape::width; ++j)
+      for (int m = 0; m < Shape::width; ++m) {
+        const int node = (b.base + j) * l.nx + a.base + m;
+        Real* to = q + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + m));
+        add(to[2], Real(force[n].x) * a.s[m] * b.s[j], in_team);
+        add(to[3], Real(force[n].y) * a.s[m] * b.s[j], in_team);
+      }
+  });
 }
 
 }  // namespace
 
 template <class Real>
-void make_loads(const Scene& scene, State<Real, 2>& s) {
-  const auto& p = s.particles;
-  size_t total = 0;
-  for (const Load& load : scene.loads) {
-    LoadGroup g;
-    g.value[0] = load.value[0];
-    g.value[1] = load.value[1];
-    if (load.kind == Load::Kind::traction)
-      load_edge(scene, s, load, g);
-    else
-      load_region(p, load, g);
-    if (g.id.empty())
-      fail({Exit::bad_input, "the load finds no particle in its region", "load \"" + load.name + "\"", "",
-            "a region that holds particle centres", "make the region a cell larger"});
-    if (load.value[0].places || load.value[1].places) {
-      for (const int id : g.id)  // particles are not sorted yet: each is at the place of its id
-        g.first.add({p.x[0][id], p.x[1][id]});
-      check_values(scene, load, g);
-    }
-    total += g.id.size();
-    s.loads.groups.push_back(std::move(g));
-  }
-  s.loads.force.resize(total);
-  s.loads.applied_at.resize(total);
-  s.loads.position.resize(static_cast<size_t>(p.count()));
-  for (long i = 0; i < p.count(); ++i)
-    s.loads.position[static_cast<size_t>(p.id[i])] = static_cast<int>(i);
-}
-
-template <class Real>
 void apply_loads(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
-  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
-  const auto& p = s.particles;
-  size_t n = 0;
-  with_shape(plan.shape, [&](auto shape) {
-    using Shape = typename decltype(shape)::type;
-    for (const LoadGroup& g : s.loads.groups) {
-      find_forces(space, g, s.clock.middle(), s.loads.force.data() + n);
-      for (const int id : g.id) {
-        const long i = s.loads.position[static_cast<size_t>(id)];
-        const Vec2 force = s.loads.force[n], x{p.x[0][i], p.x[1][i]};
-        spread<Shape>(s, slots, i, x, force);
-        s.loads.applied_at[n++] = x;
-        s.ledger.momentum.impulse += s.clock.dt * force;
-        s.ledger.momentum.torque_impulse += s.clock.dt * cross(x, force);
-      }
-    }
-  });
+  Loads& loads = s.loads;
+  Vec2* force = loads.force.data();
+  for (const LoadGroup& g : loads.groups) {
+    find_forces(space, g, s.clock.middle(), force);
+    force += g.id.size();
+  }
+  with_shape(plan.shape, [&](auto shape) { spread<typename decltype(shape)::type>(space, plan.scatter, s); });
+  const Push sum = exec::parallel_reduce<Push>(space, "loads", loads.loaded.size(),
+                                               [force = exec::data(std::as_const(loads.force)),
+                                                x = exec::data(std::as_const(loads.applied_at))] RIVEN_KERNEL(long n) {
+                                                 return Push{force[n], cross(x[n], force[n])};
+                                               });
+  s.ledger.momentum.impulse += s.clock.dt * sum.force;
+  s.ledger.momentum.torque_impulse += s.clock.dt * sum.torque;
 }
 
 template <class Real>
-void settle_loads(State<Real, 2>& s) {
-  const auto& p = s.particles;
-  size_t n = 0;
-  for (const LoadGroup& g : s.loads.groups)
-    for (const int id : g.id) {
-      const long i = s.loads.position[static_cast<size_t>(id)];
-      const Vec2 move = Vec2{p.x[0][i], p.x[1][i]} - s.loads.applied_at[n];
-      s.ledger.energy.external_work += dot(s.loads.force[n++], move);
-    }
+void settle_loads(const exec::Space& space, State<Real, 2>& state) {
+  const State<Real, 2>& s = state;
+  const double *x = exec::data(s.particles.x[0]), *y = exec::data(s.particles.x[1]);
+  const int *loaded = exec::data(s.loads.loaded), *position = exec::data(s.loads.position);
+  const Vec2 *force = exec::data(s.loads.force), *from = exec::data(s.loads.applied_at);
+  state.ledger.energy.external_work +=
+      exec::parallel_reduce<double>(space, "loads: work", s.loads.loaded.size(), [=] RIVEN_KERNEL(long n) {
+        const long i = position[loaded[n]];
+        return dot(force[n], Vec2{x[i], y[i]} - from[n]);
+      });
 }
 
 #define RIVEN_APPLY_LOADS(Real)                                                \
-  template void make_loads(const Scene&, State<Real, 2>&);                     \
   template void apply_loads(const exec::Space&, const Plan&, State<Real, 2>&); \
-  template void settle_loads(State<Real, 2>&);
+  template void settle_loads(const exec::Space&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_APPLY_LOADS)
 #undef RIVEN_APPLY_LOADS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

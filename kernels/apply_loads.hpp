@@ -6,10 +6,7 @@
 
 namespace riven {
 
-/// Finds the particles of each [[load]] and their shares; bodies are as laid out at the start.
-/// Throws Error (bad input) for a load that finds no particle, or is not finite somewhere.
-template <class Real>
-void make_loads(const Scene&, State<Real, 2>&);
+inline namespace RIVEN_SIDE {
 
 /// Adds the forces of this step to Grid::q and books their impulse.
 template <class Real>
@@ -17,6 +14,8 @@ void apply_loads(const exec::Space&, const Plan&, State<Real, 2>&);
 
 /// Books the work that the forces did while their particles moved.
 template <class Real>
-void settle_loads(State<Real, 2>&);
+void settle_loads(const exec::Space&, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

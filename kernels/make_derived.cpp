@@ -11,8 +11,7 @@ template <class Real>
 void make_derived(SimulationOf<Real>& m) {
   State<Real, 2>& s = m.state;
   list_tiles(s.grid.lattice, s.particles.tiles);
-  for (size_t i = 0; i < s.loads.position.size(); ++i)
-    s.loads.position[static_cast<size_t>(s.particles.id[static_cast<long>(i)])] = static_cast<int>(i);
+  find_loaded(m.space, s.particles.id, s.loads);
   if (m.plan.cracks && s.fields.hashed.size() == s.cracks.points())  // else they are to be hashed first
     with_shape(m.plan.shape, [&](auto shape) {
       list_segments<typename decltype(shape)::type>(m.space, s.grid.lattice, s.cracks, s.fields);

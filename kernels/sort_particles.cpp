@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "core/exec/parallel.hpp"
+#include "core/exec/sort_by_key.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/report_trouble.hpp"
 
@@ -44,6 +45,25 @@ void find_keys(const exec::Space& space, const Lattice& lattice, const Particles
                      [=] RIVEN_KERNEL(long i) { key[i] = key_of<Shape>(l, (x[i] - ox) * inv, (y[i] - oy) * inv); });
 }
 
+struct Least {
+  long value = std::numeric_limits<long>::max();
+  RIVEN_FN Least& operator+=(const Least& o) {
+    value = o.value < value ? o.value : value;
+    return *this;
+  }
+};
+
+/// The first particle that no cell has, or the largest number.
+long first_outside(const exec::Space& space, const exec::Array<int>& keys) {
+  const int* key = exec::data(keys);
+  return exec::parallel_sum<Least>(space, "sort particles: keys", keys.size(),
+                                   [=] RIVEN_KERNEL(long i, Least& least) {
+                                     if (key[i] < 0)
+                                       least += Least{i};
+                                   })
+      .value;
+}
+
 /// Moves one array to the new order, through `spare`.
 template <class T>
 void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& spare, const int* order) {
@@ -55,6 +75,15 @@ void permute(const exec::Space& space, exec::Array<T>& array, exec::Array<T>& sp
 }
 
 }  // namespace
+
+void find_loaded(const exec::Space& space, const exec::Array<int>& ids, Loads& loads) {
+  if (loads.position.empty())
+    return;
+  exec::parallel_for(space, "sort particles: loads", ids.size(),
+                     [id = exec::data(ids), position = exec::data_to_fill(loads.position)] RIVEN_KERNEL(long i) {
+                       position[id[i]] = static_cast<int>(i);
+                     });
+}
 
 void list_tiles(const Lattice& l, Tiles& t) {
   const exec::Array<int>& start = t.start;
@@ -86,25 +115,16 @@ template <class Real>
 void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   auto& p = s.particles;
   const Lattice l = s.grid.lattice;
-  const long n = p.count();
-  exec::Array<int> key(n), order(n);
+  exec::Array<int> key(p.count()), start, order;
   with_shape(plan.shape, [&](auto shape) { find_keys<typename decltype(shape)::type>(space, l, p, key); });
-  const long keys = l.nodes();
-  exec::Array<int> start(keys + 2);  // of cell k at k + 1, until the particles are placed
-  const exec::Array<int>& known = key;
-  for (long i = 0; i < n; ++i) {
-    if (known[i] < 0)
-      particle_left_grid(s, i);
-    ++start[known[i] + 2];
-  }
-  for (long k = 0; k < keys; ++k)
-    start[k + 2] += start[k + 1];
+  if (const long lost = first_outside(space, key); lost < p.count())
+    particle_left_grid(s, lost);
+  exec::sort_by_key(space, "sort particles: order", key, l.nodes(), start, order);
   const int tiles = l.tiles_x() * l.tiles_y();
   p.tiles.start.resize(tiles + 1);
-  for (int t = 0; t <= tiles; ++t)
-    p.tiles.start[t] = start[long{t} * cells_per_tile + 1];
-  for (long i = 0; i < n; ++i)
-    order[start[known[i] + 1]++] = static_cast<int>(i);
+  exec::parallel_for(space, "sort particles: tiles", tiles + 1,
+                     [to = exec::data_to_fill(p.tiles.start), from = exec::data(std::as_const(start))] RIVEN_KERNEL(
+                         long t) { to[t] = from[t * cells_per_tile]; });
   if (plan.contact || plan.fracture)
     p.tiles.cell_start.swap(start);
 
@@ -118,8 +138,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
     a->resize(tiles);
   s.watch.drift = 0;
   s.watch.sorted_at = s.clock.step;
-  for (long i = 0; i < static_cast<long>(s.loads.position.size()); ++i)
-    s.loads.position[static_cast<size_t>(std::as_const(p.id)[i])] = static_cast<int>(i);
+  find_loaded(space, p.id, s.loads);
 }
 
 #define RIVEN_SORT_PARTICLES(Real)               \

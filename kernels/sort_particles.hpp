@@ -13,6 +13,9 @@ inline namespace RIVEN_SIDE {
 template <class Real>
 bool sort_due(const State<Real, 2>&);
 
+/// Finds the places of the particles of each id, where loads go by them.
+void find_loaded(const exec::Space&, const exec::Array<int>& ids, Loads&);
+
 /// Lists the tiles that hold particles, and those of one colour together: colour = (x parity) + 2 (y parity).
 void list_tiles(const Lattice&, Tiles&);
 

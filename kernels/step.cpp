@@ -157,7 +157,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.tractions, "tractions: work and damage", "tractions",
       [](Simulation& m) { settle_tractions(m.point_forces, m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
-  add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.state); });
+  add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
   add(p.constraints, "boundary: reactions", "boundary",
       [](Simulation& m) { settle_constraints(m.space, m.plan, m.early_impulse(), m.state); });
   return list;

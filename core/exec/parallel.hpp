@@ -105,6 +105,15 @@ void parallel_for(const Space& space, const char* label, long n, const F& f) {
   });
 }
 
+/// f(i) for i in [0, n), where items add to the same numbers: one after the other here; on a device as `in_order` says,
+/// where else f is to add by atomic_add.
+template <class F>
+void scatter_for(const Space& space, const char* label, bool, long n, const F& f) {
+  Stopwatch watch(space.timers(), label);
+  for (long i = 0; i < n; ++i)
+    f(i);
+}
+
 /// Zeros all items of some arrays, each cut into as many pieces: those over the same things into the same ones.
 template <class... Arrays>
 void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {

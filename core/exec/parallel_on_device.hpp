@@ -59,6 +59,17 @@ void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
 }
 
 template <class F>
+void scatter_for(const Space& space, const char* label, bool in_order, long n, const F& f) {
+  const DeviceStopwatch timed(space, label);
+  if (!in_order)
+    return launch(space, n, f);
+  launch(space, 1, [=] RIVEN_KERNEL(long) {
+    for (long i = 0; i < n; ++i)
+      f(i);
+  });
+}
+
+template <class F>
 void parallel_teams(const Space& space, const char* label, long n, int threads, size_t shared, const F& f) {
   const DeviceStopwatch timed(space, label);
   launch_teams(space, n, threads, shared, f);

@@ -19,9 +19,10 @@ struct LoadGroup {
 
 struct Loads {
   std::vector<LoadGroup> groups;
-  std::vector<int> position;     ///< [particles] index of each id, remade when the particles are sorted
-  std::vector<Vec2> force;       ///< N, on each loaded particle in this step, group after group
-  std::vector<Vec2> applied_at;  ///< where each of them was when it was applied
+  exec::Array<int> loaded;       ///< ids of the loaded particles, group after group
+  exec::Array<int> position;     ///< [particles] index of each id, remade when the particles are sorted
+  exec::Array<Vec2> force;       ///< [loaded] N, in this step
+  exec::Array<Vec2> applied_at;  ///< [loaded] where each of them was when it was applied
 };
 
 }  // namespace riven

@@ -86,7 +86,7 @@ TEST(LoadFields, GiveTheMomentOfATractionThatVariesAlongItsEdge) {
   m.step();
   Vec2 force;
   double moment = 0;
-  for (size_t k = 0; k < m.state.loads.force.size(); ++k) {
+  for (long k = 0; k < m.state.loads.force.size(); ++k) {
     force += m.state.loads.force[k];
     moment += cross(m.state.loads.applied_at[k], m.state.loads.force[k]);
   }
