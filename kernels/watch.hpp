@@ -42,9 +42,9 @@ struct WatchTiles {
   /// `wears`: the transfer takes energy, which is to be noticed.
   /// `apart`: velocities of particles and grid are compared.
   explicit WatchTiles(StepWatch& w, bool wears = false, bool apart = false)
-      : move(Moves ? exec::data(w.tile_move) : nullptr),
-        J(Dets ? exec::data(w.tile_J) : nullptr),
-        finite(Moves ? exec::data(w.tile_finite) : nullptr),
+      : move(exec::data(w.tile_move)),
+        J(exec::data(w.tile_J)),
+        finite(exec::data(w.tile_finite)),
         worn(wears ? exec::data(w.tile_worn) : nullptr),
         apart(apart ? exec::data(w.tile_apart) : nullptr) {}
 
@@ -58,21 +58,28 @@ struct WatchTiles {
 
  private:
   RIVEN_INLINE void put_moves(int tile, const Seen* seen, int count) const {
-    Real most = 0, all = 0, far = 0;
-    double taken = 0;
+    Real most = 0, all = 0;
     for (const Seen* t = seen; t < seen + count; ++t)
       for (int k = 0; k < t->lanes; ++k) {
         most = std::max(most, t->move[k]);
         all += t->sum[k];
-        far = std::max(far, t->apart[k]);
-        taken += t->worn[k];
       }
     move[tile] = most;
     finite[tile] = all;
-    if (apart)
+    if (apart) {
+      Real far = 0;
+      for (const Seen* t = seen; t < seen + count; ++t)
+        for (int k = 0; k < t->lanes; ++k)
+          far = std::max(far, t->apart[k]);
       apart[tile] = far;
-    if (worn)
+    }
+    if (worn) {
+      double taken = 0;
+      for (const Seen* t = seen; t < seen + count; ++t)
+        for (int k = 0; k < t->lanes; ++k)
+          taken += t->worn[k];
       worn[tile] = taken;
+    }
   }
   RIVEN_INLINE void put_J(int tile, const Seen* seen, int count) const {
     Real least = seen->J[0];
