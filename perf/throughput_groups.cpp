@@ -1,4 +1,8 @@
 // What riven-perf throughput runs.
+#include <string>
+#include <utility>
+
+#include "core/scene/names.hpp"
 #include "perf/throughput.hpp"
 
 namespace riven::perf {
@@ -38,6 +42,22 @@ std::vector<Entrant> methods() {
           swirling("float", cells, [](Scene& s) { s.precision = Precision::as_float; })};
 }
 
+/// Blocks of 1, 4 and 16 million particles on the device, in both precisions and both scatters.
+std::vector<Entrant> on_device() {
+  std::vector<Entrant> list;
+  for (const auto& [name, cells] : {std::pair{"1 million", 500}, {"4 million", 1000}, {"16 million", 2000}})
+    for (const bool single : {false, true})
+      for (const ScatterKind scatter : {ScatterKind::atomic, ScatterKind::ordered})
+        list.push_back(
+            swirling(std::string(name) + (single ? ", float, " : ", double, ") + std::string(name_of(scatter)), cells,
+                     [=](Scene& s) {
+                       s.exec = exec::Kind::cuda;
+                       s.scatter = scatter;
+                       s.precision = single ? Precision::as_float : Precision::as_double;
+                     }));
+  return list;
+}
+
 /// A plate without and with its cracks.
 std::vector<Entrant> pair_of(const Scene& plate, const std::string& suffix) {
   Scene without = plate;
@@ -75,6 +95,8 @@ std::vector<Group> throughput_groups() {
        [] { return pair_of(growing_plate(0.396875e-3), ""); }},
       {"many", "plate with 200 cracks, 160,000 particles, frictionless contact", 40, 8, 35,
        [] { return beside_plain(many_plate(edge)); }},
+      {"device", "blocks without cracks of 1, 4 and 16 million particles on the device (--exec cuda)", 10, 20, 3,
+       on_device, true},
       {"thousand", "plate with 1,000 growing cracks, 4,000,000 particles, J and K at every tip", 60, 2, 15,
        [] { return pair_of(thousand_plate(), ""); }, true},
   };

@@ -12,6 +12,9 @@ struct SpaceCase {
   exec::Kind kind;
   int threads;
   ScatterKind scatter;
+  /// Sums are made in the same order as in every other such case, and rounded alike. A device sums tile by tile, and
+  /// its compiler fuses other products.
+  bool same_bits() const { return scatter == ScatterKind::ordered && kind != exec::Kind::cuda; }
   std::string name() const {
     return std::string(exec::name(kind)) + " on " + std::to_string(threads) + ", " + std::string(name_of(scatter));
   }

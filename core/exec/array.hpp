@@ -173,17 +173,9 @@ class Array {
 
 inline namespace RIVEN_SIDE {
 
-/// What kernels of this side work on: to be written where the array is not const.
-template <class T>
-const T* data(const Array<T>& array) {
-#if defined(RIVEN_ON_DEVICE)
-  return array.device_data();
-#else
-  return array.data();
-#endif
-}
-template <class T>
-T* data(Array<T>& array) {
+/// What kernels of this side work on: of a const array to be read, else to be written too.
+template <class A>
+auto* data(A& array) {
 #if defined(RIVEN_ON_DEVICE)
   return array.device_data();
 #else

@@ -7,6 +7,16 @@
 
 namespace riven::exec {
 
+namespace {
+
+std::atomic<long> sent = 0, fetched = 0;  ///< bytes, to the device and to the host
+
+}  // namespace
+
+Traffic traffic() {
+  return {sent, fetched};
+}
+
 #if defined(RIVEN_DEVICE)
 
 namespace {
@@ -30,6 +40,7 @@ void Mirror::fetch(void* here, size_t bytes) {
     return;
   if (bytes)
     device::to_host(here, there_, bytes);
+  fetched += static_cast<long>(bytes);
   newer_.store(Newer::neither, std::memory_order_release);
 }
 
@@ -49,6 +60,7 @@ void* Mirror::device_reads(const void* here, size_t bytes, size_t room) {
     make_room(room);
     if (bytes)
       device::to_device(there_, here, bytes);
+    sent += static_cast<long>(bytes);
     newer_ = Newer::neither;
   }
   return there_;

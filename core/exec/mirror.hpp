@@ -8,6 +8,12 @@
 
 namespace riven::exec {
 
+/// Bytes that mirrors have copied so far.
+struct Traffic {
+  long to_device = 0, to_host = 0;
+};
+Traffic traffic();
+
 class Mirror {
  public:
   Mirror() = default;

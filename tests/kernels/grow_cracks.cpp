@@ -402,7 +402,12 @@ TEST(GrowCracks, TheSameOnEverySpace) {
       first = now;
     for (size_t a = 0; a < now.size(); ++a) {
       ASSERT_EQ(now[a].size(), first[a].size()) << where.name();
-      EXPECT_EQ(std::memcmp(now[a].data(), first[a].data(), now[a].size() * sizeof(Vec2)), 0) << where.name();
+      if (where.same_bits()) {
+        EXPECT_EQ(std::memcmp(now[a].data(), first[a].data(), now[a].size() * sizeof(Vec2)), 0) << where.name();
+        continue;
+      }
+      for (size_t k = 0; k < now[a].size(); ++k)
+        EXPECT_LT(norm(now[a][k] - first[a][k]), 1e-9) << where.name() << ", point " << k;
     }
   }
 }
