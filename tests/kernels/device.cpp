@@ -22,9 +22,9 @@ Scene flying_block() {
   pull.name = "pull";
   pull.kind = Load::Kind::force;
   pull.region = Rectangle{{1.4, 0}, {1.6, 2}};
-  pull.value[0] = pull.value[1] = Field(TimeFunction{1.0});
+  pull.value[0] = pull.value[1] = Field(TimeFunction{1.0, {}, {}});
   s.loads.push_back(pull);
-  s.body_force[1] = TimeFunction{-1.0};
+  s.body_force[1] = TimeFunction{-1.0, {}, {}};
   return s;
 }
 
