@@ -1,7 +1,7 @@
 // The launches of parallel.hpp on the device, and teams: threads that share fast memory and wait for each other.
 //
 // Where no nvcc compiles this the device is emulated (core/exec/device/emulated.cpp): its threads are taken one after
-// the other, those of a team too, or, with RIVEN_TEAM=n, by n threads at once.
+// the other, the last first; those of a team in turn or, with RIVEN_TEAM=n, by n threads at once.
 #pragma once
 #include <algorithm>
 #include <cstddef>

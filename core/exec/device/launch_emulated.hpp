@@ -52,7 +52,7 @@ namespace detail {
 template <class F>
 RIVEN_ONCE void launch_each(long n, const F& f) {
   const F own = f;
-  for (long i = 0; i < n; ++i)
+  for (long i = n; i-- > 0;)  // backwards: what needs an order that no device keeps goes wrong here
     own(i);
 }
 
