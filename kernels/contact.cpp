@@ -1,6 +1,7 @@
 #include "kernels/contact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/laws/contact_node.hpp"
@@ -9,15 +10,7 @@
 
 namespace riven {
 
-ContactReport& ContactReport::operator+=(const ContactReport& o) {
-  touching += o.touching;
-  apart += o.apart;
-  early += o.early;
-  capped += o.capped;
-  penetration = std::max(penetration, o.penetration);
-  gap = std::max(gap, o.gap);
-  return *this;
-}
+inline namespace RIVEN_SIDE {
 
 namespace {
 
@@ -295,9 +288,9 @@ struct NodeContact {
 
 /// The contacts of a node that holds three cracks: rare, and kept out of the way of the others.
 template <class Real, ContactStage stage>
-RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, const ImpulseNotes& notes,
-                             const Detection<Real>& found, double dt, const NodeCracks& n, long index,
-                             const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
+RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, const ImpulseNotes& notes,
+                                      const Detection<Real>& found, double dt, const NodeCracks& n, long index,
+                                      const Lattice& lattice, const ContactSettings* laws, ContactReport& report) {
   NodeContact<3, Real, stage> here{motion, notes, found, dt};
   const bool acting = here.run(n, index, lattice, laws);
   report += here.report;
@@ -310,37 +303,38 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
          ContactReport& report) {
   const FieldMotion<Real, stage> motion(grid);
   const ImpulseNotes notes(impulses, grid.lattice);
-  const NodeCracks* nodes = fields.nodes.data();
-  const std::uint8_t* held = fields.held.data();
-  const ContactSettings* laws = cracks.contact.data();
+  const NodeCracks* nodes = exec::data(fields.nodes);
+  const std::uint8_t* held = exec::data(fields.held);
+  const ContactSettings* laws = exec::data(cracks.contact);
   const Lattice lattice = grid.lattice;
   const long count = fields.nodes.size();
   constexpr long ahead = 8;
-  report += exec::parallel_sum<ContactReport>(space, label, fields.nodes.size(), [=](long i, ContactReport& sum) {
-    if (i + ahead < count && held[i + ahead] != 0) {
-      const NodeCracks& next = nodes[i + ahead];
-      exec::prefetch(found.normals + i + ahead);
-      for (const long slot : {long{next.node}, long{lattice.nodes()} + next.extra}) {
-        exec::prefetch(motion.mass + slot);
-        exec::prefetch(motion.data + 4 * slot);
-      }
-    }
-    if (held[i] == 0)
-      return;
-    const NodeCracks& n = nodes[i];
-    bool acting = false;
-    if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
-      acting = one_contact(motion, notes, found, dt, n, i, lattice, laws, sum);
-    } else if (held[i] > 2) {
-      acting = three_cracks(motion, notes, found, dt, n, i, lattice, laws, sum);
-    } else {
-      NodeContact<2, Real, stage> here{motion, notes, found, dt};
-      acting = here.run(n, i, lattice, laws);
-      sum += here.report;
-    }
-    if (touched)
-      touched[i] = acting;
-  });
+  report += exec::parallel_sum<ContactReport>(
+      space, label, fields.nodes.size(), [=] RIVEN_KERNEL(long i, ContactReport& sum) {
+        if (i + ahead < count && held[i + ahead] != 0) {
+          const NodeCracks& next = nodes[i + ahead];
+          exec::prefetch(found.normals + i + ahead);
+          for (const long slot : {long{next.node}, long{lattice.nodes()} + next.extra}) {
+            exec::prefetch(motion.mass + slot);
+            exec::prefetch(motion.data + 4 * slot);
+          }
+        }
+        if (held[i] == 0)
+          return;
+        const NodeCracks& n = nodes[i];
+        bool acting = false;
+        if (held[i] == 1 && laws[n.crack[0]].law != ContactLaw::interface) {
+          acting = one_contact(motion, notes, found, dt, n, i, lattice, laws, sum);
+        } else if (held[i] > 2) {
+          acting = three_cracks(motion, notes, found, dt, n, i, lattice, laws, sum);
+        } else {
+          NodeContact<2, Real, stage> here{motion, notes, found, dt};
+          acting = here.run(n, i, lattice, laws);
+          sum += here.report;
+        }
+        if (touched)
+          touched[i] = acting;
+      });
 }
 
 }  // namespace
@@ -365,9 +359,9 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
                               .v_sep = rules.v_sep,
                               .v_contact = rules.v_contact,
                               .sums = node_sums(of, grid.lattice, fields, sums),
-                              .normals = fields.normals.data(),
-                              .third_normals = fields.third_normals.data(),
-                              .area = sums.area.data(),
+                              .normals = exec::data(fields.normals),
+                              .third_normals = exec::data(fields.third_normals),
+                              .area = exec::data(std::as_const(sums.area)),
                               .flagged = fields.nodes.size(),
                               .reach = 0.2 * grid.lattice.h};
   switch (stage) {
@@ -378,7 +372,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
       sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
       sums.touched.zero();
       return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt,
-                                      sums.keep_touched ? sums.touched.data() : nullptr, impulses, report);
+                                      sums.keep_touched ? exec::data(sums.touched) : nullptr, impulses, report);
     case ContactStage::again:
       return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, nullptr, impulses,
                                       report);
@@ -394,5 +388,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
                         ContactReport&);
 RIVEN_EACH_REAL(RIVEN_CONTACT)
 #undef RIVEN_CONTACT
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

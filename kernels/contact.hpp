@@ -28,6 +28,8 @@
 // forces would give the same v and a. In the other stages an interface only keeps together what it is too stiff to let
 // go.
 #pragma once
+#include <algorithm>
+
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"
 #include "core/state/crack_fields.hpp"
@@ -48,7 +50,15 @@ struct ContactReport {
   double penetration = 0;  ///< m, largest -delta_n of a touching pair (displacement)
   double gap = 0;          ///< m, largest delta_n at which a pair pushed (displacement)
 
-  ContactReport& operator+=(const ContactReport& o);
+  RIVEN_FN ContactReport& operator+=(const ContactReport& o) {
+    touching += o.touching;
+    apart += o.apart;
+    early += o.early;
+    capped += o.capped;
+    penetration = std::max(penetration, o.penetration);
+    gap = std::max(gap, o.gap);
+    return *this;
+  }
 };
 
 /// Contact that waits for faces to close (contact.when = "auto").
@@ -60,6 +70,8 @@ struct ContactWatch {
   int crack = -1;       ///< of this crack
 };
 
+inline namespace RIVEN_SIDE {
+
 /// Applies contact to all flagged nodes; adds to the report. `sums` as contact_sums() prepared them, of what the
 /// detection and the laws need: positions for displacement, volumes for volume, areas for interfaces. Bonded and
 /// ignored cracks need none. Throws Error (internal) if sums are missing.
@@ -67,5 +79,7 @@ template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
              ContactSums& sums, FieldImpulses& impulses, ContactReport& report);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -7,6 +7,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 template <class Real>
@@ -87,5 +89,7 @@ void watch_contact(SimulationOf<Real>& m) {
   template void watch_contact(SimulationOf<Real>&);
 RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -4,6 +4,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 template <class Real>
 void sum_for_contact(SimulationOf<Real>&);
 template <class Real>
@@ -21,5 +23,7 @@ void contact_after_extrapolation(SimulationOf<Real>&);
 /// they approach each other in that time: 2 v/c cells at the speed v, where waves have the speed c.
 template <class Real>
 void watch_contact(SimulationOf<Real>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -36,50 +36,6 @@ void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real
 
 }  // namespace
 
-namespace {
-
-/// Cells between a particle and a node that it sees, at most.
-template <class Real>
-double reach_of(ShapeFunction shape, const exec::Array<DomainSetting<Real, 2>>& domains) {
-  if (shape == ShapeFunction::bspline)
-    return 1.5;
-  double half = 0;
-  if (shape == ShapeFunction::ugimp)
-    for (const DomainSetting<Real, 2>& d : domains)
-      half = std::max({half, double(d.axis[0].half), double(d.axis[1].half)});
-  return 1 + half;
-}
-
-}  // namespace
-
-template <class Real>
-NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattice, const CrackFields& fields,
-                         ContactSums& sums) {
-  const Particles<Real, 2>& p = of.particles;
-  const bool asked = !sums.place.empty() || !sums.volume.empty();
-  return {of.shape,
-          lattice,
-          {p.x[0].data(),
-           p.x[1].data(),
-           lattice.origin.x,
-           lattice.origin.y,
-           1 / lattice.h,
-           {of.domains.data(), p.body.data(), of.domains.size() == 1}},
-          p.x0[0].data(),
-          p.x0[1].data(),
-          p.mass.data(),
-          p.J.empty() ? nullptr : p.J.data(),
-          {p.F[0].data(), p.F[1].data(), p.F[2].data(), p.F[3].data()},
-          p.body.data(),
-          of.specific_area.data(),
-          p.tiles.cell_start.data(),
-          fields.fields.data(),
-          reach_of(of.shape, of.domains) + of.drift / lattice.h + 1e-6,
-          sums.place.empty() ? nullptr : sums.place.data(),
-          sums.volume.empty() ? nullptr : sums.volume.data(),
-          asked ? sums.known.data() : nullptr};
-}
-
 template <class Real>
 void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, const ContactParticles<Real>& of,
                   const Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks, double thickness,
@@ -101,9 +57,8 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
     });
 }
 
-#define RIVEN_SUMS(Real)                                                                                              \
-  template NodeSums<Real> node_sums(const ContactParticles<Real>&, const Lattice&, const CrackFields&, ContactSums&); \
-  template void contact_sums(const exec::Space&, const ContactSumsChoice&, const ContactParticles<Real>&,             \
+#define RIVEN_SUMS(Real)                                                                                  \
+  template void contact_sums(const exec::Space&, const ContactSumsChoice&, const ContactParticles<Real>&, \
                              const Grid<Real>&, const CrackFields&, const Cracks&, double, ContactSums&);
 RIVEN_EACH_REAL(RIVEN_SUMS)
 #undef RIVEN_SUMS

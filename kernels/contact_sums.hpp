@@ -59,9 +59,37 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
                   const Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks, double thickness,
                   ContactSums& sums);
 
+inline namespace RIVEN_SIDE {
+
 /// The way to the sums over particles that were asked for.
 template <class Real>
 NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattice, const CrackFields& fields,
-                         ContactSums& sums);
+                         ContactSums& sums) {
+  const Particles<Real, 2>& p = of.particles;
+  const bool asked = !sums.place.empty() || !sums.volume.empty();
+  return {of.shape,
+          lattice,
+          {exec::data(p.x[0]),
+           exec::data(p.x[1]),
+           lattice.origin.x,
+           lattice.origin.y,
+           1 / lattice.h,
+           {exec::data(of.domains), exec::data(p.body), of.domains.size() == 1}},
+          exec::data(p.x0[0]),
+          exec::data(p.x0[1]),
+          exec::data(p.mass),
+          p.J.empty() ? nullptr : exec::data(p.J),
+          {exec::data(p.F[0]), exec::data(p.F[1]), exec::data(p.F[2]), exec::data(p.F[3])},
+          exec::data(p.body),
+          exec::data(of.specific_area),
+          exec::data(p.tiles.cell_start),
+          exec::data(fields.fields),
+          cells_seen(of.shape, of.domains) + of.drift / lattice.h + 1e-6,
+          sums.place.empty() ? nullptr : exec::data(sums.place),
+          sums.volume.empty() ? nullptr : exec::data(sums.volume),
+          asked ? exec::data(sums.known) : nullptr};
+}
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

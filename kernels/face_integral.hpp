@@ -138,7 +138,7 @@ class FaceIntegral {
   Meeting meet(const Segment& s, double cells) {
     Meeting m;
     const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
-    const ContactSettings& contact = cracks_.contact[static_cast<size_t>(s.crack)];
+    const ContactSettings& contact = cracks_.contact[s.crack];
     if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < cells * h_) || !acted(s.middle))
       return m;
     Vec2 traction;

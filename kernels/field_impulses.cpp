@@ -4,6 +4,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 constexpr int before = static_cast<int>(ContactStage::before), after = static_cast<int>(ContactStage::after),
@@ -11,23 +13,17 @@ constexpr int before = static_cast<int>(ContactStage::before), after = static_ca
 
 }  // namespace
 
-void clear_impulses(const CrackFields& fields, FieldImpulses& impulses) {
-  impulses.acted.resize(fields.nodes.size());
-  impulses.acted.zero();
-  impulses.given.resize(FieldImpulses::stages * (fields.nodes.size() + fields.extra_slots));
-}
-
 template <class Real>
 ImpulseEnergy impulse_energy(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields,
                              FieldImpulses& impulses, const ImpulseRule& rule, double dt) {
-  const Real *mass = grid.mass.data(), *q = grid.q.data(),
-             *last =
-                 rule.update == StressUpdate::musl || rule.update == StressUpdate::usavg ? grid.again.data() : nullptr;
-  const NodeCracks* nodes = fields.nodes.data();
+  const bool again_too = rule.update == StressUpdate::musl || rule.update == StressUpdate::usavg;
+  const Real *mass = exec::data(grid.mass), *q = exec::data(grid.q),
+             *last = again_too ? exec::data(grid.again) : nullptr;
+  const NodeCracks* nodes = exec::data(fields.nodes);
   const ImpulseNotes notes(impulses, grid.lattice);
   const StrainShares share = strain_shares(rule.update);
   return exec::parallel_sum<ImpulseEnergy>(
-      space, "energy of impulses", fields.nodes.size(), [=](long i, ImpulseEnergy& sum) {
+      space, "energy of impulses", fields.nodes.size(), [=] RIVEN_KERNEL(long i, ImpulseEnergy& sum) {
         const int acted = notes.acted[i];
         if (acted == 0)
           return;
@@ -59,5 +55,7 @@ ImpulseEnergy impulse_energy(const exec::Space& space, const Grid<Real>& grid, c
                                         const ImpulseRule&, double);
 RIVEN_EACH_REAL(RIVEN_IMPULSES)
 #undef RIVEN_IMPULSES
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

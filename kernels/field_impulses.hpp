@@ -31,6 +31,8 @@ struct FieldImpulses {
                                     ///< flagged nodes first, then of the extra slots; holds where `acted` says so
 };
 
+inline namespace RIVEN_SIDE {
+
 /// Where a stage writes them down.
 struct ImpulseNotes {
   std::uint8_t* acted;
@@ -39,7 +41,7 @@ struct ImpulseNotes {
   long flagged;
 
   ImpulseNotes(FieldImpulses& to, const Lattice& l)
-      : acted(to.acted.data()), given(to.given.data()), nodes(l.nodes()), flagged(to.acted.size()) {}
+      : acted(exec::data(to.acted)), given(exec::data(to.given)), nodes(l.nodes()), flagged(to.acted.size()) {}
 
   RIVEN_INLINE Vec2* at(long i, long slot) const {
     return given + FieldImpulses::stages * (slot < nodes ? i : flagged + slot - nodes);
@@ -57,6 +59,8 @@ struct ImpulseNotes {
   }
 };
 
+}  // namespace RIVEN_SIDE
+
 /// Forgets those of the last step.
 void clear_impulses(const CrackFields& fields, FieldImpulses& impulses);
 
@@ -70,16 +74,20 @@ struct ImpulseRule {
 struct ImpulseEnergy {
   double work = 0;   ///< J, W summed over nodes in a fixed order
   double early = 0;  ///< J, the part of it that P_higher and P_before did on particles
-  ImpulseEnergy& operator+=(const ImpulseEnergy& o) {
+  RIVEN_FN ImpulseEnergy& operator+=(const ImpulseEnergy& o) {
     work += o.work;
     early += o.early;
     return *this;
   }
 };
 
+inline namespace RIVEN_SIDE {
+
 /// Needs Grid::q as [vx vy ax ay] and, with MUSL and USAVG, Grid::again as [vx vy . .].
 template <class Real>
 ImpulseEnergy impulse_energy(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields,
                              FieldImpulses& impulses, const ImpulseRule& rule, double dt);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

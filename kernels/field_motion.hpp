@@ -1,5 +1,7 @@
 // The motion of a node's velocity fields, which impulses between them change at several stages of the step.
 #pragma once
+#include <utility>
+
 #include "core/math/vec.hpp"
 #include "core/state/grid.hpp"
 
@@ -12,6 +14,8 @@ enum class ContactStage {
   higher   ///< Grid::high holds [vx vy . .]: v changes
 };
 
+inline namespace RIVEN_SIDE {
+
 /// The motion as each stage keeps it, in groups of four numbers.
 template <class Real, ContactStage stage>
 struct FieldMotion {
@@ -21,12 +25,11 @@ struct FieldMotion {
   const Real* mass;
   Real* data;
 
-  explicit FieldMotion(Grid<Real>& grid) : mass(grid.mass.data()), data(grid.q.data()) {
-    if (stage == ContactStage::again)
-      data = grid.again.data();
-    if (stage == ContactStage::higher)
-      data = grid.high.data();
-  }
+  explicit FieldMotion(Grid<Real>& grid)
+      : mass(exec::data(std::as_const(grid.mass))),
+        data(exec::data(stage == ContactStage::again    ? grid.again
+                        : stage == ContactStage::higher ? grid.high
+                                                        : grid.q)) {}
   RIVEN_INLINE Vec2 momentum_of(long slot) const {
     const Real* d = data + 4 * slot;
     return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
@@ -53,5 +56,7 @@ struct FieldMotion {
     }
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

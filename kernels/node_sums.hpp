@@ -27,6 +27,20 @@ struct ContactParticles {
   double drift;                                        ///< StepWatch::drift
 };
 
+/// Cells between a particle and a node that it sees, at most.
+template <class Real>
+double cells_seen(ShapeFunction shape, const exec::Array<DomainSetting<Real, 2>>& domains) {
+  if (shape == ShapeFunction::bspline)
+    return 1.5;
+  double half = 0;
+  if (shape == ShapeFunction::ugimp)
+    for (const DomainSetting<Real, 2>& d : domains)
+      half = std::max({half, double(d.axis[0].half), double(d.axis[1].half)});
+  return 1 + half;
+}
+
+inline namespace RIVEN_SIDE {
+
 /// The same as a kernel sees it, and where the sums of a node go; null where not asked for.
 template <class Real>
 struct NodeSums {
@@ -119,5 +133,7 @@ struct NodeSums {
     }
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -44,7 +44,7 @@ constexpr double power_of_work = 6;
 Overlap penetration(const Cracks& cracks) {
   Overlap most;
   for (int i = 0; i < cracks.points(); ++i) {
-    if (cracks.contact[static_cast<size_t>(cracks.crack[i])].law == ContactLaw::ignored)
+    if (cracks.contact[cracks.crack[i]].law == ContactLaw::ignored)
       continue;
     const double overlap = -face_opening(cracks, i).normal;
     if (overlap > most.depth)

@@ -49,7 +49,8 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
     all.insert(all.end(), points.begin(), points.end());
     owner.insert(owner.end(), points.size(), cracks.count());
     cracks.names.push_back(line.name);
-    cracks.contact.push_back(line.contact.value_or(scene.contact));
+    cracks.contact.resize(cracks.count());
+    cracks.contact[cracks.count() - 1] = line.contact.value_or(scene.contact);
     cracks.start.push_back(static_cast<int>(all.size()));
   }
   const long n = static_cast<long>(all.size());

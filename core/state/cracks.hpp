@@ -31,7 +31,7 @@ struct CrackTraction {
 /// segment a-b is positive. The normal points from above to below (Nairn 2003, section 2.2).
 struct Cracks {
   std::vector<std::string> names;
-  std::vector<ContactSettings> contact;              ///< law of each crack
+  exec::Array<ContactSettings> contact;              ///< law of each crack
   std::vector<int> start{0};                         ///< [cracks + 1]
   exec::Array<int> crack;                            ///< [points] which crack a point belongs to
   exec::Array<int> serial;                           ///< [points] in order of their making: stays with a point
