@@ -116,7 +116,7 @@ class MemberReader {
 
 /// Arrays of crack points all hold as many, or none.
 void check_points(const HdfFile& file, const Cracks& c) {
-  if (!std::is_sorted(c.start.begin(), c.start.end()) || c.start.front() != 0)
+  if (!std::is_sorted(c.start.begin(), c.start.end()) || c.start[0] != 0)
     misfit(file, state_path("cracks/start"));
   for (const long size : {c.crack.size(), c.serial.size(), c.plane.size(), c.upper.size(), c.lower.size()})
     require_count(file, state_path("cracks"), static_cast<std::size_t>(size), static_cast<std::size_t>(c.points()));

@@ -19,7 +19,7 @@ std::vector<CrackOpening> crack_openings(const Cracks& cracks) {
 double extreme_opening(const Cracks& cracks, int crack) {
   const std::vector<CrackOpening> all = crack_openings(cracks);
   double extreme = 0;
-  for (int i = cracks.start[static_cast<std::size_t>(crack)]; i < cracks.start[static_cast<std::size_t>(crack) + 1];
+  for (int i = cracks.start[crack]; i < cracks.start[crack + 1];
        ++i)
     if (std::abs(all[static_cast<std::size_t>(i)].normal) > std::abs(extreme))
       extreme = all[static_cast<std::size_t>(i)].normal;
@@ -36,7 +36,7 @@ PolyData crack_poly(const Cracks& cracks) {
     of_point.push_back(cracks.crack[i]);
   }
   for (int c = 0; c < cracks.count(); ++c) {
-    d.offsets.push_back(cracks.start[static_cast<std::size_t>(c) + 1]);
+    d.offsets.push_back(cracks.start[c + 1]);
     of_cell.push_back(c);
   }
 

@@ -45,9 +45,9 @@ std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks, const std::ve
   for (int c = 0; c < cracks.count(); ++c) {
     const auto k = static_cast<std::size_t>(c);
     Summary::Crack out{cracks.names[k], 0, 0, 0};
-    for (int i = cracks.start[k]; i < cracks.start[k + 1]; ++i) {
+    for (int i = cracks.start[c]; i < cracks.start[c + 1]; ++i) {
       out.max_opening = std::max(out.max_opening, openings[static_cast<std::size_t>(i)].normal);
-      if (i > cracks.start[k])
+      if (i > cracks.start[c])
         out.length += norm(cracks.plane[i] - cracks.plane[i - 1]);
     }
     all.push_back(out);

@@ -42,7 +42,7 @@ RIVEN_INLINE Vec2 unit(Vec2 n) {
 /// Adds the pieces of crack c to the sums of the nodes around them that hold it.
 inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, CrackFields& fields) {
   const double inv_h = 1 / lattice.h;
-  for (int k = cracks.start[static_cast<size_t>(c)]; k + 1 < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
+  for (int k = cracks.start[c]; k + 1 < cracks.start[c + 1]; ++k) {
     const Vec2 a = (cracks.plane[k] - lattice.origin) * inv_h, d = (cracks.plane[k + 1] - lattice.origin) * inv_h - a;
     const double length2 = dot(d, d);
     const int pieces = length2 <= 0.36 ? 1 : static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));

@@ -56,7 +56,7 @@ void begin_anew(const Tiles& tiles, long particles, const Lattice& lattice, cons
 void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   exec::launch(space, cracks.count(), [&](long c) {
     double most2 = 0;
-    for (int k = cracks.start[static_cast<size_t>(c)]; k < cracks.start[static_cast<size_t>(c) + 1]; ++k) {
+    for (int k = cracks.start[c]; k < cracks.start[c + 1]; ++k) {
       const Vec2 now = seen_point(cracks, k, lattice.h), move = now - fields.traced[k];
       most2 = std::max(most2, dot(move, move));
       fields.traced[k] = now;

@@ -229,7 +229,7 @@ class Tracer {
     for (Floats& f : path_clear2_)
       f = Floats{} + 1e6f;
     while (segment < last) {
-      const int crack = in_.cracks.crack[*segment], end = in_.cracks.start[static_cast<size_t>(crack) + 1];
+      const int crack = in_.cracks.crack[*segment], end = in_.cracks.start[crack + 1];
       int count = static_cast<int>(last - segment);
       if (segment[count - 1] >= end)
         count = static_cast<int>(std::lower_bound(segment, last, end) - segment);

@@ -72,49 +72,22 @@ class Array {
     std::swap(data_, o.data_);
     std::swap(size_, o.size_);
     std::swap(capacity_, o.capacity_);
-#if defined(RIVEN_DEVICE)
     mirror_.swap(o.mirror_);
-#endif
   }
 
-  long size() const {
-    return size_;
-  }
-  long capacity() const {
-    return capacity_;
-  }
-  bool empty() const {
-    return size_ == 0;
-  }
-  long bytes() const {
-    return data_ ? (capacity_ + padding) * static_cast<long>(sizeof(T)) : 0;
-  }
-  T* data() {
-    return written_here(), data_;
-  }
-  const T* data() const {
-    return read_here(), data_;
-  }
-  T& operator[](long i) {
-    return data()[i];
-  }
-  const T& operator[](long i) const {
-    return data()[i];
-  }
-  T* begin() {
-    return data();
-  }
-  T* end() {
-    return data() + size_;
-  }
-  const T* begin() const {
-    return data();
-  }
-  const T* end() const {
-    return data() + size_;
-  }
+  long size() const { return size_; }
+  long capacity() const { return capacity_; }
+  bool empty() const { return size_ == 0; }
+  long bytes() const { return data_ ? (capacity_ + padding) * static_cast<long>(sizeof(T)) : 0; }
+  T* data() { return written_here(), data_; }
+  const T* data() const { return read_here(), data_; }
+  T& operator[](long i) { return data()[i]; }
+  const T& operator[](long i) const { return data()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
 
-#if defined(RIVEN_DEVICE)
   // The same on the device: to be read, to be written too, to be written whole.
   const T* device_data() const {
     return data_ ? static_cast<const T*>(mirror_.device_reads(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
@@ -125,28 +98,15 @@ class Array {
   T* device_data_to_fill() {
     return data_ ? static_cast<T*>(mirror_.device_overwrites(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
   }
-#endif
 
  private:
-  size_t bytes_held() const {
-    return static_cast<size_t>(size_) * sizeof(T);
-  }
+  size_t bytes_held() const { return static_cast<size_t>(size_) * sizeof(T); }
   /// Of memory for so many items, with the padding, in whole lines.
-  static size_t bytes_of(long items) {
-    return (static_cast<size_t>(items + padding) * sizeof(T) + 63) / 64 * 64;
-  }
+  static size_t bytes_of(long items) { return (static_cast<size_t>(items + padding) * sizeof(T) + 63) / 64 * 64; }
 
   // What is here is about to be read, or written.
-  void read_here() const {
-#if defined(RIVEN_DEVICE)
-    mirror_.host_reads(data_, bytes_held());
-#endif
-  }
-  void written_here() {
-#if defined(RIVEN_DEVICE)
-    mirror_.host_writes(data_, bytes_held());
-#endif
-  }
+  void read_here() const { mirror_.host_reads(data_, bytes_held()); }
+  void written_here() { mirror_.host_writes(data_, bytes_held()); }
 
   /// The items that there are stay, what is behind them is zero.
   void move_to_room_for(long items) {
@@ -166,9 +126,7 @@ class Array {
   T* data_ = nullptr;
   long size_ = 0;
   long capacity_ = 0;
-#if defined(RIVEN_DEVICE)
-  mutable Mirror mirror_;
-#endif
+  [[no_unique_address]] mutable Mirror mirror_;
 };
 
 inline namespace RIVEN_SIDE {

@@ -14,6 +14,8 @@ struct Traffic {
 };
 Traffic traffic();
 
+#if defined(RIVEN_DEVICE)
+
 class Mirror {
  public:
   Mirror() = default;
@@ -58,5 +60,20 @@ class Mirror {
   size_t room_ = 0;
   std::atomic<Newer> newer_{Newer::host};
 };
+
+#else
+
+/// Where there is no device there is nothing to keep track of.
+class Mirror {
+ public:
+  void swap(Mirror&) noexcept {}
+  void host_reads(void*, size_t) {}
+  void host_writes(void*, size_t) {}
+  void* device_reads(const void*, size_t, size_t);
+  void* device_writes(void*, size_t, size_t);
+  void* device_overwrites(void*, size_t, size_t);
+};
+
+#endif
 
 }  // namespace riven::exec

@@ -1,6 +1,5 @@
 // A stable counting sort of items by whole numbers: sums of counts tell where the items of each key begin.
 #pragma once
-#include <algorithm>
 #include <utility>
 
 #include "core/exec/atomic.hpp"

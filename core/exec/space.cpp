@@ -13,7 +13,7 @@ Space::Space(Kind kind, int threads) : kind_(kind), threads_(kind == Kind::seria
   if (kind_ == Kind::stdpar)
     arena_ = std::make_unique<tbb::task_arena>(threads_);
   if (std::string why_not; !available(kind, &why_not))
-    fail({Exit::bad_input, why_not, "--exec", name(kind), "a space that is there", "--exec openmp"});
+    fail({Exit::bad_input, why_not, "--exec or solver.exec", name(kind), "a space that is there", "openmp"});
 }
 
 bool available(Kind kind, std::string* why_not) {

@@ -18,7 +18,7 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
     std::copy_backward(a.begin() + at, a.begin() + points, a.end());
     a[at] = T{};
   });
-  for (size_t c = static_cast<size_t>(crack) + 1; c < cracks.start.size(); ++c)
+  for (long c = crack + 1; c < cracks.start.size(); ++c)
     ++cracks.start[c];
   for (Junction& j : cracks.junctions)
     j.segment += !last && j.other == crack;
@@ -58,7 +58,7 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
     const int other = cracks.crack[point];
     const Vec2 a = cracks.plane[point], b = cracks.plane[point + 1];
     found = Obstacle{
-        {crack, last, other, point - cracks.start[static_cast<size_t>(other)], along}, a + along * (b - a), distance};
+        {crack, last, other, point - cracks.start[other], along}, a + along * (b - a), distance};
     return &*found;
   };
   const double far = 1.01 * (reach + beside);

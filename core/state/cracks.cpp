@@ -51,7 +51,8 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
     cracks.names.push_back(line.name);
     cracks.contact.resize(cracks.count());
     cracks.contact[cracks.count() - 1] = line.contact.value_or(scene.contact);
-    cracks.start.push_back(static_cast<int>(all.size()));
+    cracks.start.resize(cracks.count() + 1);
+    cracks.start[cracks.count()] = static_cast<int>(all.size());
   }
   const long n = static_cast<long>(all.size());
   for (auto* a : {&cracks.plane, &cracks.upper, &cracks.lower, &cracks.plane0}) {

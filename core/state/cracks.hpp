@@ -32,7 +32,7 @@ struct CrackTraction {
 struct Cracks {
   std::vector<std::string> names;
   exec::Array<ContactSettings> contact;              ///< law of each crack
-  std::vector<int> start{0};                         ///< [cracks + 1]
+  exec::Array<int> start = exec::Array<int>(1);      ///< [cracks + 1]
   exec::Array<int> crack;                            ///< [points] which crack a point belongs to
   exec::Array<int> serial;                           ///< [points] in order of their making: stays with a point
   exec::Array<Vec2> plane;                           ///< [points] crack plane
@@ -55,7 +55,7 @@ struct Cracks {
 
   /// The point at an end of a crack, and the one next to it.
   int end_point(int c, bool last) const {
-    return last ? start[static_cast<size_t>(c) + 1] - 1 : start[static_cast<size_t>(c)];
+    return last ? start[c + 1] - 1 : start[c];
   }
   int next_to_end(int c, bool last) const { return end_point(c, last) + (last ? -1 : 1); }
 
@@ -63,7 +63,7 @@ struct Cracks {
   void set_open(int c, bool last, bool is) { open[2 * c + last] = is; }
 
   int count() const { return static_cast<int>(names.size()); }
-  int points() const { return start.back(); }
+  int points() const { return start[count()]; }
 
   /// f(array) for every array that holds one entry per point and exists; f takes them const or not, as the cracks are.
   template <class F>

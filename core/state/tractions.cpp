@@ -37,7 +37,7 @@ struct Ends {
   int first, last;
 };
 Ends ends_of(const Cracks& cracks, int point) {
-  const auto c = static_cast<size_t>(cracks.crack[point]);
+  const int c = cracks.crack[point];
   return {cracks.start[c], cracks.start[c + 1] - 1};
 }
 
@@ -108,8 +108,8 @@ double cohesive_energy(const Cracks& cracks) {
 void lay_tractions(const Scene& scene, Cracks& cracks) {
   cracks.cohesive.resize(cracks.points());
   cracks.bearing.resize(cracks.points());
-  for (size_t c = 0; c < scene.cracks.size(); ++c) {
-    const std::optional<TractionSettings>& settings = scene.cracks[c].traction;
+  for (int c = 0; c < cracks.count(); ++c) {
+    const std::optional<TractionSettings>& settings = scene.cracks[static_cast<size_t>(c)].traction;
     cracks.traction.push_back({});
     if (!settings)
       continue;

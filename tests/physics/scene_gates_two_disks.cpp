@@ -103,7 +103,7 @@ struct Middle {
 double force_beside(const Simulation& m, int crack) {
   const auto& p = m.state.particles;
   const Cracks& c = m.state.cracks;
-  const int first = c.start[static_cast<size_t>(crack)], last = c.start[static_cast<size_t>(crack) + 1] - 1;
+  const int first = c.start[crack], last = c.start[crack + 1] - 1;
   const Vec2 line = c.plane0[last] - c.plane0[first], t = line * (1 / norm(line)), now = c.plane[last] - c.plane[first];
   const Vec2 middle = 0.5 * (c.plane0[first] + c.plane0[last]), n = turned(now) * (1 / norm(now));
   const ParticleStress stress(p, m.scene);
@@ -129,7 +129,7 @@ Middle look_at_middle(const Simulation& m, const NormalForces& forces, int crack
   for (long i = 0; i < f.nodes.size(); ++i)
     if (f.held[i] == 1 && f.nodes[i].crack[0] == crack)
       r.force += forces.at(i);
-  const int first = c.start[static_cast<size_t>(crack)], last = c.start[static_cast<size_t>(crack) + 1] - 1;
+  const int first = c.start[crack], last = c.start[crack + 1] - 1;
   const int begin = first + (last - first) / 5, end = last - (last - first) / 5;
   for (int k = begin; k <= end; ++k) {
     const double normal = opening[static_cast<size_t>(k)].normal, part = 1. / (end - begin + 1);
