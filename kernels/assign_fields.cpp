@@ -1,10 +1,11 @@
 #include "kernels/assign_fields.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <climits>
 #include <utility>
 
+#include "core/exec/atomic.hpp"
+#include "core/exec/bits.hpp"
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/average_normals.hpp"
@@ -13,92 +14,194 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
-/// Tells the tiles whose particles may see the node that its cracks have changed.
-void mark_changed(const Lattice& lattice, int node, CrackFields& fields) {
-  each_tile_around(lattice, node, 1, [&](int tile) {
-    if (const int m = fields.tile_marked[tile])
-      std::atomic_ref<int>(fields.tiles[m - 1].changed).store(1, std::memory_order_relaxed);
-  });
-}
+/// What nodes that may see cracks hold.
+struct NodeHolder {
+  ListsView lists;
+  const int* tally;  ///< CrackFields, as all that follow
+  NodeCracks* nodes;
+  std::uint8_t *verdict, *held;
+  TileTrace* tiles;
 
-/// Which cracks a node holds, and what a crossing of each entry means. Returns whether that has changed.
-bool hold_cracks(CrackFields& fields, long f) {
-  NodeCracks& node = fields.nodes[f];
-  const int first = fields.candidate_start[f], last = fields.candidate_start[f + 1];
-  const auto crossings = [&](int c) { return fields.tally[2 * c] + fields.tally[2 * c + 1]; };
-  int most[most_held] = {}, found = 0;  // candidates, by falling number of crossings
-  for (int c = first; c < last; ++c) {
-    if (crossings(c) == 0)
-      continue;
-    int at = found;
-    while (at > 0 && crossings(most[at - 1]) < crossings(c))
-      --at;
-    if (at == most_held)
-      continue;
-    found = std::min(found + 1, most_held);
-    std::copy_backward(most + at, most + found - 1, most + found);
-    most[at] = c;
-  }
-  NodeCracks now;
-  now.node = node.node;
-  now.extra = node.extra;
-  now.sees = node.sees;
-  now.third = node.third;
-  bool changed = false;
-  int held = 0;
-  for (int c = first; c < last; ++c) {
-    const int above = 2 * c, below = above + 1;
-    std::uint8_t means[2] = {fourth_crack, fourth_crack};
-    if (std::find(most, most + found, c) != most + found) {
-      const bool from_above = fields.tally[above] >= fields.tally[below];
-      now.crack[held] = fields.candidate[c];
-      now.side[held] = from_above ? Side::above : Side::below;
-      means[from_above ? 0 : 1] = static_cast<std::uint8_t>(1 << held);
-      means[from_above ? 1 : 0] = other_side;
-      ++held;
+  /// Sees which cracks node f holds, and what a crossing of each entry means. If that has changed, tells the tiles
+  /// whose particles may see the node.
+  RIVEN_FN void hold(long f) const {
+    NodeCracks& node = nodes[f];
+    const int first = lists.candidate_start[f], last = lists.candidate_start[f + 1];
+    int most[most_held] = {};
+    const int found = most_crossed(first, last, most);
+    NodeCracks now;
+    now.node = node.node;
+    now.extra = node.extra;
+    now.sees = node.sees;
+    now.third = node.third;
+    bool changed = false;
+    int count = 0;
+    for (int c = first; c < last; ++c) {
+      const int above = 2 * c, below = above + 1;
+      std::uint8_t means[2] = {fourth_crack, fourth_crack};
+      if (std::find(most, most + found, c) != most + found) {
+        const bool from_above = tally[above] >= tally[below];
+        now.crack[count] = lists.candidate[c];
+        now.side[count] = from_above ? Side::above : Side::below;
+        means[from_above ? 0 : 1] = static_cast<std::uint8_t>(1 << count);
+        means[from_above ? 1 : 0] = other_side;
+        ++count;
+      }
+      for (int side = 0; side < 2; ++side) {
+        changed = changed || verdict[above + side] != means[side];
+        verdict[above + side] = means[side];
+      }
     }
-    for (int side = 0; side < 2; ++side) {
-      changed = changed || fields.verdict[above + side] != means[side];
-      fields.verdict[above + side] = means[side];
-    }
+    node = now;
+    held[f] = static_cast<std::uint8_t>(count);
+    if (changed)
+      each_tile_around(lists.lattice, node.node, 1, [&](int tile) {
+        if (const int m = lists.tile_marked[tile])
+          exec::atomic_set(tiles[m - 1].changed, 1);
+      });
   }
-  node = now;
-  fields.held[f] = static_cast<std::uint8_t>(held);
-  return changed;
-}
 
-/// f(particle, record) for the records of each particle of a marked tile that weigh.
-template <class F>
-void each_record(const CrackFields& fields, long marked, long first, long last, const F& f) {
-  const int known = fields.tiles[marked].known;
-  for (long p = first; p < last; ++p) {
-    const CrossingMemory& m = fields.memory[p + known];
-    for (int r = m.first; r < m.first + m.count; ++r)
-      if (fields.records[r].weighs)
-        f(p, fields.records[r]);
-  }
-}
+ private:
+  RIVEN_FN int crossings(int c) const { return tally[2 * c] + tally[2 * c + 1]; }
 
-/// The fields of the particles of a marked tile.
-void set_fields(CrackFields& fields, long marked, long first, long last) {
-  TileTrace& tile = fields.tiles[marked];
-  std::uint16_t* const crossing = fields.crossing.data() + CrackFields::block_of(first, marked);
-  std::fill(fields.fields.begin() + first, fields.fields.begin() + last, 0u);
-  std::fill(crossing, crossing + (last - first + exec::lanes - 1) / exec::lanes, std::uint16_t{0});
-  tile.warnings[0] = tile.warnings[1] = tile.crossing = 0;
-  each_record(fields, marked, first, last, [&](long p, const CrossingRecord& r) {
-    const std::uint8_t verdict = fields.verdict[r.entry];
-    if (verdict < other_side) {
-      const long lane = p - first;
-      tile.crossing += fields.fields[p] == 0;
-      fields.fields[p] |= static_cast<std::uint32_t>(verdict) << (CrackFields::bits * r.neighbour);
-      crossing[lane / exec::lanes] |= static_cast<std::uint16_t>(1u << (lane % exec::lanes));
-    } else {
-      ++tile.warnings[verdict == fourth_crack];
+  /// The candidates of [first, last) by falling number of crossings, as many as a node can hold; returns how many.
+  RIVEN_FN int most_crossed(int first, int last, int* most) const {
+    int found = 0;
+    for (int c = first; c < last; ++c) {
+      if (crossings(c) == 0)
+        continue;
+      int at = found;
+      while (at > 0 && crossings(most[at - 1]) < crossings(c))
+        --at;
+      if (at == most_held)
+        continue;
+      found = found < most_held ? found + 1 : found;
+      std::copy_backward(most + at, most + found - 1, most + found);
+      most[at] = c;
     }
-  });
+    return found;
+  }
+};
+
+/// The fields of the particles of marked tiles, and their slots, block by block.
+struct FieldSetter {
+  struct Warnings {
+    int count[2];
+  };
+
+  Lattice lattice;
+  int nodes_seen;  ///< by a particle
+  const int *marked_tiles, *tile_start;
+  const CrossingMemory* memory;  ///< CrackFields, as all that follow
+  const CrossingRecord* records;
+  const std::uint8_t* verdict;
+  const NodeCracks* nodes;
+  const int* extra;
+  TileTrace* tiles;
+  std::uint32_t* fields;
+  std::uint16_t* crossing;
+  int *block_slots, *slots;
+
+  /// The fields of a marked tile's particles, and how many of them cross. The slots of a block are numbered from 0 on.
+  RIVEN_KERNEL void set_fields(const exec::Team& team, Warnings& warned, long marked) const {
+    TileTrace& tile = tiles[marked];
+    if (!tile.changed)
+      return;
+    const long first_block = CrackFields::block_of(first(marked), marked);
+    team.each(2, [&](long kind) { warned.count[kind] = 0; });
+    team.each(blocks(marked), [&](long b) {
+      crossing[first_block + b] = fields_of_block(first(marked) + b * exec::block, last(marked), tile.known, warned);
+    });
+    team.each(1, [&](long) {
+      int crossed = 0;
+      for (long b = first_block; b < first_block + blocks(marked); ++b) {
+        block_slots[b] = nodes_seen * crossed;
+        crossed += exec::bits_of(crossing[b]);
+      }
+      tile.crossing = crossed;
+      std::copy(warned.count, warned.count + 2, tile.warnings);
+    });
+  }
+
+  /// Writes the slots of a tile's particles that cross.
+  template <class Shape>
+  RIVEN_KERNEL void set_slots(const exec::Team& team, long marked) const {
+    TileTrace& tile = tiles[marked];
+    if (!tile.changed)
+      return;
+    const long first_block = CrackFields::block_of(first(marked), marked);
+    team.each(blocks(marked), [&](long b) {
+      const long begin = first(marked) + b * exec::block, end = std::min(begin + exec::block, last(marked));
+      int* slot = slots + (block_slots[first_block + b] += tile.slots);
+      for (long p = begin; p < end; ++p)
+        if (fields[p] != 0)
+          slot = put_slots<Shape>(p, tile.known, slot);
+    });
+    team.each(1, [&](long) { tile.changed = 0; });
+  }
+
+ private:
+  RIVEN_FN long first(long marked) const { return tile_start[marked_tiles[marked]]; }
+  RIVEN_FN long last(long marked) const { return tile_start[marked_tiles[marked] + 1]; }
+  RIVEN_FN long blocks(long marked) const { return (last(marked) - first(marked) + exec::block - 1) / exec::block; }
+
+  /// Sets `fields` of the particles from `begin` on; returns a bit for each that crosses.
+  RIVEN_FN std::uint16_t fields_of_block(long begin, long last, int known, Warnings& warned) const {
+    unsigned crossed = 0;
+    for (long p = begin; p < std::min(begin + exec::block, last); ++p) {
+      const CrossingMemory& m = memory[p + known];
+      std::uint32_t word = 0;
+      for (int r = m.first; r < m.first + m.count; ++r) {
+        if (!records[r].weighs)
+          continue;
+        const std::uint8_t meaning = verdict[records[r].entry];
+        if (meaning < other_side)
+          word |= static_cast<std::uint32_t>(meaning) << (CrackFields::bits * records[r].neighbour);
+        else
+          exec::atomic_add(warned.count[meaning == fourth_crack], 1);
+      }
+      fields[p] = word;
+      crossed |= static_cast<unsigned>(word != 0) << (p - begin);
+    }
+    return static_cast<std::uint16_t>(crossed);
+  }
+
+  template <class Shape>
+  RIVEN_FN int* put_slots(long p, int known, int* slot) const {
+    constexpr int N = Shape::width;
+    const CrossingRecord& any = records[memory[p + known].first];
+    const int corner = nodes[any.node].node - any.neighbour / N * lattice.nx - any.neighbour % N;
+    for (int n = 0; n < N * N; ++n) {
+      const int node = corner + n / N * lattice.nx + n % N, field = CrackFields::field_of(fields[p], n);
+      *slot++ = field == 0 ? node : lattice.nodes() + extra[node] + field - 1;
+    }
+    return slot;
+  }
+};
+
+/// What the fields of all tiles ask for.
+struct Demand {
+  long tiles = 0;  ///< without room for the slots of their particles
+  long warnings[2] = {};
+  RIVEN_FN Demand& operator+=(const Demand& o) {
+    tiles += o.tiles;
+    for (int kind = 0; kind < 2; ++kind)
+      warnings[kind] += o.warnings[kind];
+    return *this;
+  }
+};
+
+Demand demand(const exec::Space& space, const CrackFields& fields) {
+  return exec::parallel_sum<Demand>(space, "assign fields", fields.tiles.size(),
+                                    [tile = exec::data(fields.tiles)] RIVEN_KERNEL(long m, Demand& sum) {
+                                      sum.tiles += tile[m].crossing > tile[m].room;
+                                      for (int kind = 0; kind < 2; ++kind)
+                                        sum.warnings[kind] += tile[m].warnings[kind];
+                                    });
 }
 
 /// Makes room for the slots of the particles that cross.
@@ -113,47 +216,95 @@ void make_room(int neighbours, CrackFields& fields) {
     fields.slots.resize(fields.slots_used + fields.slots_used / 4);
 }
 
-/// Writes the slots of a tile's particles that cross.
-template <class Shape>
-void set_slots(const Lattice& lattice, CrackFields& fields, long marked, long first, long last) {
-  constexpr int N = Shape::width;
-  TileTrace& tile = fields.tiles[marked];
-  tile.changed = 0;
-  int* slot = fields.slots.data() + tile.slots;
-  for (long p = first; p < last; ++p) {
-    const long lane = (p - first) % exec::lanes, block = CrackFields::block_of(p, marked);
-    if (lane == 0)
-      fields.block_slots[block] = static_cast<int>(slot - fields.slots.data());
-    const std::uint32_t word = fields.fields[p];
-    if (word == 0)
-      continue;
-    const CrossingRecord& any = fields.records[fields.memory[p + tile.known].first];
-    const int corner = fields.nodes[any.node].node - any.neighbour / N * lattice.nx - any.neighbour % N;
-    for (int n = 0; n < N * N; ++n) {
-      const int node = corner + n / N * lattice.nx + n % N, field = CrackFields::field_of(word, n);
-      *slot++ = field == 0 ? node : lattice.nodes() + fields.extra[node] + field - 1;
-    }
-  }
-}
-
 /// The node of the first warning of a kind, by particle number and neighbour.
 template <class Real>
 Vec2 first_warning(const CrackFields& fields, const Particles<Real, 2>& particles, const Lattice& lattice, int kind) {
+  const CrossingVerdict verdict = kind == 0 ? other_side : fourth_crack;
   std::pair<int, int> first{INT_MAX, 0};
   int node = 0;
   for (long m = 0; m < fields.tiles.size(); ++m) {
     if (fields.tiles[m].warnings[kind] == 0)
       continue;
     const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
-    each_record(fields, m, start[0], start[1], [&](long p, const CrossingRecord& r) {
-      const std::pair<int, int> here{particles.id[p], r.neighbour};
-      if (fields.verdict[r.entry] != (kind == 0 ? other_side : fourth_crack) || !(here < first))
-        return;
-      first = here;
-      node = fields.nodes[r.node].node;
-    });
+    for (long p = start[0]; p < start[1]; ++p) {
+      const CrossingMemory& memory = fields.memory[p + fields.tiles[m].known];
+      for (int i = memory.first; i < memory.first + memory.count; ++i) {
+        const CrossingRecord& r = fields.records[i];
+        const std::pair<int, int> here{particles.id[p], r.neighbour};
+        if (!r.weighs || fields.verdict[r.entry] != verdict || !(here < first))
+          continue;
+        first = here;
+        node = fields.nodes[r.node].node;
+      }
+    }
   }
   return lattice.position(node);
+}
+
+/// What the nodes hold by the crossings of their particles, and the normals of what they hold.
+void assign_nodes(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  const ListsView lists = lists_view(lattice, fields);
+  const NodeHolder holder{lists,
+                          exec::data(std::as_const(fields.tally)),
+                          exec::data(fields.nodes),
+                          exec::data(fields.verdict),
+                          exec::data(fields.held),
+                          exec::data(fields.tiles)};
+  const NormalAverager averager{lists,
+                                exec::data(cracks.plane),
+                                exec::data(cracks.plane0),
+                                exec::data(std::as_const(fields.nodes)),
+                                exec::data(std::as_const(fields.held)),
+                                exec::data_to_fill(fields.normals),
+                                exec::data(fields.third_normals)};
+  exec::parallel_for(space, "assign fields", fields.nodes.size(),
+                     [=, recount = exec::data(fields.recount)] RIVEN_KERNEL(long f) {
+                       if (recount[f]) {
+                         recount[f] = 0;
+                         holder.hold(f);
+                       }
+                       averager.find(f);
+                     });
+}
+
+/// The fields of the particles of marked tiles, and their slots.
+template <class Shape, class Real>
+void assign_particles(const exec::Space& space, const Particles<Real, 2>& particles, const Lattice& lattice,
+                      CrackFields& fields) {
+  constexpr int seen = Shape::width * Shape::width;
+  const auto setter = [&] {
+    return FieldSetter{lattice,
+                       seen,
+                       exec::data(std::as_const(fields.marked_tiles)),
+                       exec::data(particles.tiles.start),
+                       exec::data(std::as_const(fields.memory)),
+                       exec::data(std::as_const(fields.records)),
+                       exec::data(std::as_const(fields.verdict)),
+                       exec::data(std::as_const(fields.nodes)),
+                       exec::data(std::as_const(fields.extra)),
+                       exec::data(fields.tiles),
+                       exec::data(fields.fields),
+                       exec::data(fields.crossing),
+                       exec::data(fields.block_slots),
+                       exec::data(fields.slots)};
+  };
+  const FieldSetter first = setter();
+  exec::parallel_teams<FieldSetter::Warnings>(space, "assign fields", fields.tiles.size(),
+                                              [=] RIVEN_KERNEL(const exec::Team& team, FieldSetter::Warnings& warned,
+                                                               long m) { first.set_fields(team, warned, m); });
+  const Demand asked = demand(space, fields);
+  if (asked.tiles > 0)
+    make_room(seen, fields);
+  const FieldSetter then = setter();
+  exec::parallel_teams<char>(
+      space, "assign fields", fields.tiles.size(),
+      [=] RIVEN_KERNEL(const exec::Team& team, char&, long m) { then.template set_slots<Shape>(team, m); });
+  long* const total[2] = {&fields.warning_both_sides, &fields.warning_fourth_crack};
+  for (int kind = 0; kind < 2; ++kind) {
+    if (asked.warnings[kind] > 0 && *total[kind] == 0)
+      fields.warning_place[kind] = first_warning(fields, particles, lattice, kind);
+    *total[kind] += asked.warnings[kind];
+  }
 }
 
 }  // namespace
@@ -163,39 +314,8 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
                       const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
                       CrackFields& fields, const double* tile_move) {
   trace_crossings<Shape, Real>(space, particles, domains, lattice, cracks, tile_move, fields);
-  exec::parallel_for(space, "assign fields", fields.nodes.size(), [&](long f) {
-    if (fields.recount[f]) {
-      fields.recount[f] = 0;
-      if (hold_cracks(fields, f))
-        mark_changed(lattice, fields.nodes[f].node, fields);
-    }
-    fields.normals[f] = {};
-  });
-  fields.third_normals.zero();
-  exec::parallel_tasks(space, "assign fields", cracks.count(),
-                       [&](long c) { add_normals(lattice, cracks, static_cast<int>(c), fields); });
-  exec::parallel_for(space, "assign fields", fields.nodes.size(),
-                     [&](long f) { finish_normals(lattice, cracks, f, fields); });
-  exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
-    const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
-    if (fields.tiles[m].changed)
-      set_fields(fields, m, start[0], start[1]);
-  });
-  make_room(Shape::width * Shape::width, fields);
-  exec::parallel_tasks(space, "assign fields", fields.tiles.size(), [&](long m) {
-    const int* start = particles.tiles.start.data() + fields.marked_tiles[m];
-    if (fields.tiles[m].changed)
-      set_slots<Shape>(lattice, fields, m, start[0], start[1]);
-  });
-  long* const total[2] = {&fields.warning_both_sides, &fields.warning_fourth_crack};
-  for (int kind = 0; kind < 2; ++kind) {
-    long count = 0;
-    for (const TileTrace& t : fields.tiles)
-      count += t.warnings[kind];
-    if (count > 0 && *total[kind] == 0)
-      fields.warning_place[kind] = first_warning(fields, particles, lattice, kind);
-    *total[kind] += count;
-  }
+  assign_nodes(space, lattice, cracks, fields);
+  assign_particles<Shape>(space, particles, lattice, fields);
 }
 
 #define RIVEN_DETERMINE(Shape, Real)                                                                        \
@@ -206,5 +326,7 @@ void determine_fields(const exec::Space& space, const Particles<Real, 2>& partic
 RIVEN_EACH_REAL(RIVEN_DETERMINE_EACH)
 #undef RIVEN_DETERMINE_EACH
 #undef RIVEN_DETERMINE
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

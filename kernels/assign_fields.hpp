@@ -16,6 +16,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Trace and assign: fills `nodes` and `fields` from the present positions. The hash must not be due. Particles are
 /// sorted by tiles, from which they have moved by one cell at most. `domains`: [bodies]. `tile_move`: see
 /// trace_crossings.hpp.
@@ -23,5 +25,7 @@ template <class Shape, class Real>
 void determine_fields(const exec::Space& space, const Particles<Real, 2>& particles,
                       const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
                       CrackFields& fields, const double* tile_move = nullptr);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -9,22 +9,20 @@
 #include <cmath>
 
 #include "core/state/crack_fields.hpp"
-#include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
 #include "kernels/clearance.hpp"
+#include "kernels/lists_view.hpp"
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace detail {
 
-/// Values of the quadratic B-splines of the three nodes around X.
-struct SplineWeights {
-  int base;
-  double s[3];
-};
-RIVEN_INLINE SplineWeights spline_weights(double X) {
-  const double nearest = std::floor(X + 0.5), r = X - nearest;
-  return {static_cast<int>(nearest) - 1, {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)}};
+/// The quadratic B-spline at r cells from its node.
+RIVEN_INLINE double spline(double r) {
+  const double wide = std::max(0., 1.5 - std::fabs(r)), near = std::max(0., 0.5 - std::fabs(r));
+  return 0.5 * wide * wide - 1.5 * near * near;
 }
 
 /// Normal of the segment a-b times its length, from above to below.
@@ -39,64 +37,74 @@ RIVEN_INLINE Vec2 unit(Vec2 n) {
 
 }  // namespace detail
 
-/// Adds the pieces of crack c to the sums of the nodes around them that hold it.
-inline void add_normals(const Lattice& lattice, const Cracks& cracks, int c, CrackFields& fields) {
-  const double inv_h = 1 / lattice.h;
-  for (int k = cracks.start[c]; k + 1 < cracks.start[c + 1]; ++k) {
-    const Vec2 a = (cracks.plane[k] - lattice.origin) * inv_h, d = (cracks.plane[k + 1] - lattice.origin) * inv_h - a;
+/// Finds the normals of flagged nodes from the segments that each may see, in their order.
+struct NormalAverager {
+  ListsView lists;
+  const Vec2 *plane, *plane0;  ///< Cracks
+  const NodeCracks* nodes;     ///< [flagged]
+  const std::uint8_t* held;    ///< [flagged]
+  NodeNormals* normals;        ///< [flagged]
+  ThirdNormal* third;
+
+  /// Those of node f. A crack that only just reaches into sight of the node, or folds back so that its normals cancel,
+  /// has its nearest segment's.
+  RIVEN_FN void find(long f) const {
+    normals[f] = {};
+    const NodeCracks& node = nodes[f];
+    int c = lists.candidate_start[f];
+    for (int m = 0; m < held[f]; ++m, ++c) {
+      while (lists.candidate[c] != node.crack[m])
+        ++c;
+      const int first = lists.segment_start[c], last = lists.segment_start[c + 1];
+      Sums sums;
+      for (int s = first; s < last; ++s)
+        add(node.node, lists.node_segment[s], sums);
+      const double least = 1e-9 * lists.lattice.h;
+      if (!(dot(sums.now, sums.now) > least * least && dot(sums.first, sums.first) > least * least)) {
+        const int k = nearest(lists.lattice.position(node.node), first, last);
+        sums = {detail::weighted_normal(plane[k], plane[k + 1]), detail::weighted_normal(plane0[k], plane0[k + 1])};
+      }
+      (m < 2 ? normals[f].now[m] : third[node.third].now) = detail::unit(sums.now);
+      (m < 2 ? normals[f].first[m] : third[node.third].first) = detail::unit(sums.first);
+    }
+  }
+
+ private:
+  struct Sums {
+    Vec2 now, first;
+  };
+
+  /// Adds the pieces of segment k to the sums of a node.
+  RIVEN_FN void add(int node, int k, Sums& sums) const {
+    const Lattice& lattice = lists.lattice;
+    const double inv_h = 1 / lattice.h;
+    const Vec2 from = lattice.position(node);
+    const Vec2 a = (plane[k] - from) * inv_h, d = (plane[k + 1] - from) * inv_h - a;
     const double length2 = dot(d, d);
     const int pieces = length2 <= 0.36 ? 1 : static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));
-    const Vec2 n = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]) * (1. / pieces);
-    const Vec2 n0 = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]) * (1. / pieces);
+    double weight = 0;
     for (int piece = 0; piece < pieces; ++piece) {
-      const Vec2 X = a + ((piece + 0.5) / pieces) * d;
-      const detail::SplineWeights x = detail::spline_weights(X.x), y = detail::spline_weights(X.y);
-      if (x.base < 0 || y.base < 0 || x.base + 3 > lattice.nx || y.base + 3 > lattice.ny)
-        continue;
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) {
-          const int f = fields.node_index[(y.base + j) * lattice.nx + x.base + i];
-          if (f < 0)
-            continue;
-          const NodeCracks& held = fields.nodes[f];
-          const int m = held.crack[1] == c;
-          const double weight = x.s[i] * y.s[j];
-          if (held.crack[m] == c) {
-            fields.normals[f].now[m] += weight * n;
-            fields.normals[f].first[m] += weight * n0;
-          } else if (held.crack[2] == c) {
-            fields.third_normals[held.third].now += weight * n;
-            fields.third_normals[held.third].first += weight * n0;
-          }
-        }
+      const Vec2 r = a + ((piece + 0.5) / pieces) * d;
+      weight += detail::spline(r.x) * detail::spline(r.y);
     }
+    sums.now += (weight / pieces) * detail::weighted_normal(plane[k], plane[k + 1]);
+    sums.first += (weight / pieces) * detail::weighted_normal(plane0[k], plane0[k + 1]);
   }
-}
 
-/// Makes the sums of flagged node f normals. A crack that only just reaches into sight of the node, or folds back so
-/// that its normals cancel, has its nearest segment's.
-inline void finish_normals(const Lattice& lattice, const Cracks& cracks, long f, CrackFields& fields) {
-  const NodeCracks& node = fields.nodes[f];
-  NodeNormals& normals = fields.normals[f];
-  for (int m = 0; m < fields.held[f]; ++m) {
-    Vec2& now = m < 2 ? normals.now[m] : fields.third_normals[node.third].now;
-    Vec2& of_first = m < 2 ? normals.first[m] : fields.third_normals[node.third].first;
-    const double least = 1e-9 * lattice.h;
-    if (!(dot(now, now) > least * least && dot(of_first, of_first) > least * least)) {
-      int c = fields.candidate_start[f];
-      while (fields.candidate[c] != node.crack[m])
-        ++c;
-      const Vec2 place = lattice.position(node.node);
-      const auto far = [&](int k) { return distance2(place, cracks.plane[k], cracks.plane[k + 1]); };
-      const int* list = fields.node_segment.data();
-      const int k = *std::min_element(list + fields.segment_start[c], list + fields.segment_start[c + 1],
-                                      [&](int a, int b) { return far(a) < far(b); });
-      now = detail::weighted_normal(cracks.plane[k], cracks.plane[k + 1]);
-      of_first = detail::weighted_normal(cracks.plane0[k], cracks.plane0[k + 1]);
+  RIVEN_FN int nearest(Vec2 place, int first, int last) const {
+    int found = lists.node_segment[first];
+    double least2 = distance2(place, plane[found], plane[found + 1]);
+    for (int s = first + 1; s < last; ++s) {
+      const int k = lists.node_segment[s];
+      if (const double far2 = distance2(place, plane[k], plane[k + 1]); far2 < least2) {
+        found = k;
+        least2 = far2;
+      }
     }
-    now = detail::unit(now);
-    of_first = detail::unit(of_first);
+    return found;
   }
-}
+};
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -5,208 +5,216 @@
 
 #include "core/exec/atomic.hpp"
 #include "core/exec/parallel.hpp"
-#include "core/fracture/crack_path.hpp"
-#include "kernels/known_particles.hpp"
+#include "kernels/carry_points.hpp"
+#include "kernels/lists_view.hpp"
 #include "kernels/turned.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 namespace {
 
 /// Cells, and nodes, of one task.
 constexpr long some = 512;
 
-/// Points and segments of the former lists in the new ones.
-class PointMap {
- public:
-  PointMap(const CrackLists& former, const CrackLists& now)
-      : former_of(now.serial.size()),
-        now_of(former.serial.size()),
-        is_new(now.serial.size()),
-        is_gone(former.serial.size()) {
-    exec::Array<int> by_serial(now.serial.size());
-    for (int& k : by_serial)
-      k = -1;
-    for (int k = 0; k < former.serial.size(); ++k)
-      by_serial[former.serial[k]] = k;
-    for (int k = 0; k < now.serial.size(); ++k) {
-      former_of[k] = by_serial[now.serial[k]];
-      if (former_of[k] >= 0)
-        now_of[former_of[k]] = k;
-    }
-    const auto stays = [&](int k) { return former_of[k] >= 0 && former.kind[former_of[k]] == now.kind[k]; };
-    for (std::uint8_t& gone : is_gone)
-      gone = 1;
-    for (int k = 0; k < now.serial.size(); ++k) {
-      const bool same = k + 1 < now.serial.size() && stays(k) && stays(k + 1) && former_of[k + 1] == former_of[k] + 1;
-      is_new[k] = !same;
-      if (same)
-        is_gone[former_of[k]] = 0;
-    }
-  }
+/// The same points and segments in the former lists and the new ones: PointMap.
+struct SameSegments {
+  const int* now_of;
+  const std::uint8_t *is_new, *is_gone;
 
-  exec::Array<int> former_of;        ///< [points] -1: a new one
-  exec::Array<int> now_of;           ///< [former points]
-  exec::Array<std::uint8_t> is_new;  ///< [points] the segment that starts here was not there before, or ended otherwise
-  exec::Array<std::uint8_t> is_gone;  ///< [former points] and the other way round
-};
-
-bool any_of(const exec::Array<std::uint8_t>& flag, const int* first, const int* last) {
-  return std::any_of(first, last, [&](int segment) { return flag[segment] != 0; });
-}
-
-class Carrier {
- public:
-  Carrier(const exec::Space& space, const Tiles& tiles, const Lattice& lattice, const Cracks& cracks,
-          CrackFields& fields)
-      : space_(space),
-        tiles_(tiles),
-        lattice_(lattice),
-        cracks_(cracks),
-        f_(fields),
-        was_(fields.former),
-        map_(was_, fields) {}
-
-  void carry() {
-    points();
-    tiles();
-    exec::launch_some(space_, f_.cells.size(), some, [&](long c) { turn_where_new(c); });
-    exec::launch_some(space_, was_.cells.size(), some, [&](long c) {
-      if (any_of(map_.is_gone, was_.cell_segment.data() + was_.cell_start[c],
-                 was_.cell_segment.data() + was_.cell_start[c + 1]))
-        turn_cell(lattice_, was_.cells[c], f_);
-    });
-    exec::launch_some(space_, f_.nodes.size(), some, [&](long n) { node(n); });
-    f_.tally.zero();
-    exec::parallel_tasks(space_, "carry traces", f_.marked_tiles.size(), [&](long m) { records(m); });
-  }
+  RIVEN_FN bool any_new(const int* first, const int* last) const { return any(is_new, first, last); }
+  RIVEN_FN bool any_gone(const int* first, const int* last) const { return any(is_gone, first, last); }
 
  private:
-  void points() {
-    f_.traced.resize(cracks_.points());
-    for (int k = 0; k < cracks_.points(); ++k) {
-      const int former = map_.former_of[k];
-      f_.traced[k] =
-          former >= 0 && was_.kind[former] == f_.kind[k] ? was_.traced[former] : seen_point(cracks_, k, lattice_.h);
-    }
+  static RIVEN_FN bool any(const std::uint8_t* flag, const int* first, const int* last) {
+    for (; first < last; ++first)
+      if (flag[*first])
+        return true;
+    return false;
   }
+};
 
-  /// All are to be looked at, and to be given slots: nodes have others.
-  void tiles() {
-    for (const int tile : was_.marked_tiles)
-      if (!f_.tile_marked[tile])
-        std::fill(f_.fields.begin() + tiles_.start[tile], f_.fields.begin() + tiles_.start[tile + 1], 0u);
-    const long marked = f_.marked_tiles.size(), blocks = f_.fields.size() / exec::lanes + marked + 1;
-    f_.tiles.resize(marked);
-    for (long m = 0; m < marked; ++m) {
-      const int tile = f_.marked_tiles[m], former = was_.tile_marked[tile];
-      TileTrace& t = f_.tiles[m] = former ? was_.tiles[former - 1] : TileTrace{};
-      t.limit = 0;
-      t.changed = 1;
-      if (!former)
-        t.known = add_known(tiles_.start[tile], tiles_.start[tile + 1], f_);
-    }
-    f_.block_limit.resize(blocks);
-    f_.block_limit.zero();
-    f_.crossing.resize(blocks);
-    f_.block_slots.resize(blocks);
+/// Turns the cells that see other segments than before.
+struct CellTurner {
+  ListsView now, was;
+  Turning turning;
+  SameSegments same;
+
+  /// Where there are new ones. A particle may have come from the cell next to that of its trace, if that one saw
+  /// nothing around it.
+  RIVEN_FN void where_new(long c) const {
+    const int cell = now.cells[c];
+    if (was.cell_index[cell] < 0)
+      each_cell_around(now.lattice, cell, [&](long near) { turning.cell(near); });
+    else if (same.any_new(now.cell_segment + now.cell_start[c], now.cell_segment + now.cell_start[c + 1]))
+      turning.cell(cell);
   }
-
-  /// A particle may have come from the cell next to that of its trace, if that one saw nothing around it.
-  void turn_where_new(long c) {
-    const int cell = f_.cells[c];
-    if (was_.cell_index[cell] < 0)
-      each_cell_around(lattice_, cell, [&](long near) { turn_cell(lattice_, near, f_); });
-    else if (any_of(map_.is_new, f_.cell_segment.data() + f_.cell_start[c],
-                    f_.cell_segment.data() + f_.cell_start[c + 1]))
-      turn_cell(lattice_, cell, f_);
+  /// Where some are gone.
+  RIVEN_FN void where_gone(long c) const {
+    if (same.any_gone(was.cell_segment + was.cell_start[c], was.cell_segment + was.cell_start[c + 1]))
+      turning.cell(was.cells[c]);
   }
+};
 
-  /// What a node holds, and its distance from the segments, if these are the same.
-  void node(long n) {
-    NodeCracks& node = f_.nodes[n];
-    const int first = f_.candidate_start[n], last = f_.candidate_start[n + 1], former = was_.node_index[node.node];
+/// What trace and assign keep of nodes: CrackLists.
+struct NodeKeep {
+  NodeCracks* nodes;
+  NodeClearance* clearance;
+  double* follow_at;
+  std::uint8_t *verdict, *held;
+};
+struct FormerNodes {
+  const NodeCracks* nodes;
+  const NodeClearance* clearance;
+  const double* follow_at;
+  const std::uint8_t *verdict, *held;
+};
+
+/// What a node holds, and its distance from the segments, if these are the same.
+struct NodeCarrier {
+  ListsView now, was;
+  Turning turning;
+  SameSegments same;
+  NodeKeep to;
+  FormerNodes from;
+  std::uint8_t* recount;
+
+  RIVEN_FN void carry(long n) const {
+    NodeCracks& node = to.nodes[n];
+    const int first = now.candidate_start[n], last = now.candidate_start[n + 1], former = was.node_index[node.node];
     for (int e = 2 * first; e < 2 * last; ++e)
-      f_.verdict[e] = fourth_crack;
-    f_.recount[n] = former < 0;
-    f_.clearance[n] = NodeClearance{};
-    f_.clearance[n].travel = -std::numeric_limits<double>::max();  // to be measured
-    f_.follow_at[n] = -1;
+      to.verdict[e] = fourth_crack;
+    recount[n] = former < 0;
+    to.clearance[n] = NodeClearance{};
+    to.clearance[n].travel = -std::numeric_limits<double>::max();  // to be measured
+    to.follow_at[n] = -1;
     if (former < 0)
       return;
     for (int k = 0; k < most_held; ++k) {
-      node.crack[k] = was_.nodes[former].crack[k];
-      node.side[k] = was_.nodes[former].side[k];
+      node.crack[k] = from.nodes[former].crack[k];
+      node.side[k] = from.nodes[former].side[k];
     }
-    f_.held[n] = was_.held[former];
-    const int was_first = was_.candidate_start[former], was_last = was_.candidate_start[former + 1];
+    to.held[n] = from.held[former];
+    const int was_first = was.candidate_start[former], was_last = was.candidate_start[former + 1];
     for (int e = first, o = was_first; e < last; ++e) {
-      while (o < was_last && was_.candidate[o] < f_.candidate[e])
+      while (o < was_last && was.candidate[o] < now.candidate[e])
         ++o;
-      if (o < was_last && was_.candidate[o] == f_.candidate[e])
-        std::copy_n(&was_.verdict[2 * o], 2, &f_.verdict[2 * e]);
+      if (o < was_last && was.candidate[o] == now.candidate[e])
+        std::copy_n(from.verdict + 2 * o, 2, to.verdict + 2 * e);
     }
-    if (any_of(map_.is_new, f_.node_segment.data() + f_.segment_start[first],
-               f_.node_segment.data() + f_.segment_start[last]) ||
-        any_of(map_.is_gone, was_.node_segment.data() + was_.segment_start[was_first],
-               was_.node_segment.data() + was_.segment_start[was_last])) {
-      turn_node(lattice_, node.node, f_);
+    if (same.any_new(now.node_segment + now.segment_start[first], now.node_segment + now.segment_start[last]) ||
+        same.any_gone(was.node_segment + was.segment_start[was_first],
+                      was.node_segment + was.segment_start[was_last])) {
+      turning.node(node.node);
       return;
     }
-    f_.clearance[n] = was_.clearance[former];
-    f_.follow_at[n] = was_.follow_at[former];
-    if (int& near = f_.clearance[n].near; near >= 0)
-      near = map_.now_of[near];
+    to.clearance[n] = from.clearance[former];
+    to.follow_at[n] = from.follow_at[former];
+    if (int& near = to.clearance[n].near; near >= 0)
+      near = same.now_of[near];
   }
+};
 
-  /// Records of a tile's particles in the new numbers, and their counts.
-  void records(long marked) {
-    const int* start = tiles_.start.data() + f_.marked_tiles[marked];
-    const int known = f_.tiles[marked].known;
-    for (long p = start[0]; p < start[1]; ++p) {
-      CrossingMemory& m = f_.memory[p + known];
-      CrossingRecord* const r = f_.records.data() + m.first;
-      if (!std::all_of(r, r + m.count, [&](CrossingRecord& one) { return renumber(one); })) {
+/// Records of particles in the new numbers, and their counts.
+struct RecordCarrier {
+  ListsView now, was;
+  const NodeCracks* former_nodes;
+  const int* tile_start;
+  const TileTrace* tiles;
+  CrossingMemory* memory;
+  CrossingRecord* records;
+  double* limit;
+  std::uint32_t* fields;
+  int* tally;
+
+  RIVEN_FN void carry(long p, int known) const {
+    CrossingMemory& m = memory[p + known];
+    CrossingRecord* const r = records + m.first;
+    for (int i = 0; i < m.count; ++i)
+      if (!renumber(r[i])) {
         m = CrossingMemory{};
-        f_.limit[p + known] = 0;
-        f_.fields[p] = 0;
-        continue;
+        limit[p + known] = 0;
+        fields[p] = 0;
+        return;
       }
-      for (int i = 0; i < m.count; ++i)
-        if (r[i].weighs)
-          exec::atomic_add(f_.tally[r[i].entry], 1);
-    }
+    for (int i = 0; i < m.count; ++i)
+      if (r[i].weighs)
+        exec::atomic_add(tally[r[i].entry], 1);
   }
 
+ private:
   /// False if the node does not see the crack any more.
-  bool renumber(CrossingRecord& r) const {
-    const int crack = was_.candidate[r.entry / 2];
-    const int n = f_.node_index[was_.nodes[r.node].node];
+  RIVEN_FN bool renumber(CrossingRecord& r) const {
+    const int crack = was.candidate[r.entry / 2];
+    const int n = now.node_index[former_nodes[r.node].node];
     if (n < 0)
       return false;
-    for (int c = f_.candidate_start[n]; c < f_.candidate_start[n + 1]; ++c)
-      if (f_.candidate[c] == crack) {
+    for (int c = now.candidate_start[n]; c < now.candidate_start[n + 1]; ++c)
+      if (now.candidate[c] == crack) {
         r.node = n;
         r.entry = 2 * c + r.entry % 2;
         return true;
       }
     return false;
   }
-
-  const exec::Space& space_;
-  const Tiles& tiles_;
-  const Lattice& lattice_;
-  const Cracks& cracks_;
-  CrackFields& f_;
-  const CrackLists& was_;
-  const PointMap map_;
 };
+
+/// Particles of tiles that are not marked any more cross nothing.
+void clear_unmarked(const exec::Space& space, const Tiles& tiles, CrackFields& f) {
+  exec::parallel_teams<char>(space, "carry traces", f.former.marked_tiles.size(),
+                             [start = exec::data(tiles.start), marked = exec::data(std::as_const(f.tile_marked)),
+                              former = exec::data(std::as_const(f.former.marked_tiles)),
+                              fields = exec::data(f.fields)] RIVEN_KERNEL(const exec::Team& team, char&, long m) {
+                               const int tile = former[m], first = start[tile];
+                               if (!marked[tile])
+                                 team.each(start[tile + 1] - first, [&](long i) { fields[first + i] = 0; });
+                             });
+}
 
 }  // namespace
 
 void carry_traces(const exec::Space& space, const Tiles& tiles, const Lattice& lattice, const Cracks& cracks,
-                  CrackFields& fields) {
-  Carrier(space, tiles, lattice, cracks, fields).carry();
+                  CrackFields& f) {
+  const PointMap map(f.former, f);
+  carry_points(map, lattice, cracks, f);
+  clear_unmarked(space, tiles, f);
+  carry_tiles(tiles, f);
+  const ListsView now = lists_view(lattice, f), was = lists_view(lattice, f.former);
+  const SameSegments same{exec::data(map.now_of), exec::data(map.is_new), exec::data(map.is_gone)};
+  const CellTurner cells{now, was, turning(lattice, f), same};
+  exec::launch_some(space, f.cells.size(), some, [=] RIVEN_KERNEL(long c) { cells.where_new(c); });
+  exec::launch_some(space, f.former.cells.size(), some, [=] RIVEN_KERNEL(long c) { cells.where_gone(c); });
+  const CrackLists& former = f.former;
+  const NodeCarrier nodes{now,
+                          was,
+                          turning(lattice, f),
+                          same,
+                          {exec::data(f.nodes), exec::data(f.clearance), exec::data(f.follow_at), exec::data(f.verdict),
+                           exec::data(f.held)},
+                          {exec::data(former.nodes), exec::data(former.clearance), exec::data(former.follow_at),
+                           exec::data(former.verdict), exec::data(former.held)},
+                          exec::data(f.recount)};
+  exec::launch_some(space, f.nodes.size(), some, [=] RIVEN_KERNEL(long n) { nodes.carry(n); });
+  exec::parallel_zero(space, "carry traces", f.tally);
+  const RecordCarrier records{now,
+                              was,
+                              exec::data(former.nodes),
+                              exec::data(tiles.start),
+                              exec::data(std::as_const(f.tiles)),
+                              exec::data(f.memory),
+                              exec::data(f.records),
+                              exec::data(f.limit),
+                              exec::data(f.fields),
+                              exec::data(f.tally)};
+  exec::parallel_teams<char>(space, "carry traces", f.marked_tiles.size(),
+                             [=] RIVEN_KERNEL(const exec::Team& team, char&, long m) {
+                               const int* start = records.tile_start + records.now.marked_tiles[m];
+                               const int first = start[0], known = records.tiles[m].known;
+                               team.each(start[1] - first, [&](long i) { records.carry(first + i, known); });
+                             });
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -14,8 +14,12 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Remakes what trace and assign keep from `fields.former`. `fields.traces` must be the number of the trace to come.
 void carry_traces(const exec::Space& space, const Tiles& tiles, const Lattice& lattice, const Cracks& cracks,
                   CrackFields& fields);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -9,6 +9,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 /// Mass over a particle's below which a crack's surface has no body around it.
@@ -31,8 +33,9 @@ template <class Real>
 void find_fields(SimulationOf<Real>& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
-    determine_fields<typename decltype(shape)::type>(m.space, s.particles, s.domains.data(), s.grid.lattice, s.cracks,
-                                                     s.fields, s.watch.tile_move.data());
+    determine_fields<typename decltype(shape)::type>(m.space, s.particles, exec::data(std::as_const(s.domains)),
+                                                     s.grid.lattice, s.cracks, s.fields,
+                                                     exec::data(std::as_const(s.watch.tile_move)));
   });
 }
 
@@ -60,5 +63,7 @@ void move_with_grid(SimulationOf<Real>& m) {
   template void move_with_grid(SimulationOf<Real>&);
 RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -4,6 +4,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 template <class Real>
 void hash_if_due(SimulationOf<Real>&);
 template <class Real>
@@ -12,5 +14,7 @@ template <class Real>
 void load_faces(SimulationOf<Real>&);
 template <class Real>
 void move_with_grid(SimulationOf<Real>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -2,24 +2,22 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "core/exec/floats.hpp"
 #include "core/math/vec.hpp"
 #include "core/state/grid.hpp"
 
 namespace riven {
-
-/// Single-precision lanes, one for each node. Compilers do not turn a loop with these blends into vectors by
-/// themselves.
-typedef float Floats __attribute__((vector_size(32)));
-typedef int Masks __attribute__((vector_size(32)));
-inline constexpr int float_lanes = 8;
 
 /// A list of segments, by their first points, ascending.
 struct SegmentList {
   const int* segment;
   int count;
 };
+
+inline namespace RIVEN_SIDE {
+
+using exec::Floats, exec::Masks, exec::float_lanes;
 
 template <class Shape>
 struct Paths {
@@ -34,7 +32,7 @@ struct Paths {
   Floats dy[groups];
   Floats inv_length2[groups];  ///< 0 for a path of next to no length
 
-  Paths(Vec2 p, int i0, int j0, const Lattice& lattice, double inv_h) : particle(p), i(i0), j(j0) {
+  RIVEN_FN Paths(Vec2 p, int i0, int j0, const Lattice& lattice, double inv_h) : particle(p), i(i0), j(j0) {
     float x[N], y[N];
     for (int a = 0; a < N; ++a) {
       const Vec2 node = lattice.position(i + a, j + a);
@@ -42,8 +40,9 @@ struct Paths {
       y[a] = static_cast<float>((node.y - p.y) * inv_h);
     }
     for (int k = 0; k < groups * float_lanes; ++k) {
-      dx[k / float_lanes][k % float_lanes] = x[std::min(k, nodes - 1) % N];
-      dy[k / float_lanes][k % float_lanes] = y[std::min(k, nodes - 1) / N];
+      const int node = k < nodes ? k : nodes - 1;
+      exec::put_lane(dx[k / float_lanes], k % float_lanes, x[node % N]);
+      exec::put_lane(dy[k / float_lanes], k % float_lanes, y[node / N]);
     }
     for (int g = 0; g < groups; ++g) {
       const Floats length2 = dx[g] * dx[g] + dy[g] * dy[g], one = Floats{} + 1.f;
@@ -52,7 +51,7 @@ struct Paths {
   }
 
   /// Takes the squared distances (in cells) of a point from the paths into `least`.
-  void take_distance2(Vec2 point, double inv_h, Floats* least) const {
+  RIVEN_FN void take_distance2(Vec2 point, double inv_h, Floats* least) const {
     const float x = static_cast<float>((point.x - particle.x) * inv_h);
     const float y = static_cast<float>((point.y - particle.y) * inv_h);
     const Floats zero{}, one = zero + 1.f;
@@ -67,7 +66,7 @@ struct Paths {
   /// For each node, a bit for every segment (of at most `batch`) that may be crossed. With the corners of the
   /// signed areas relative to the particle, (12a) = d x a, (12b) = d x b, (ab1) = a x b, (ab2) = (ab1) + (12a) - (12b).
   /// Returns whether there is any.
-  bool may_cross(SegmentList list, const Vec2* point, double inv_h, Masks* bits) const {
+  RIVEN_FN bool may_cross(SegmentList list, const Vec2* point, double inv_h, Masks* bits) const {
     constexpr float reach = 2.f;  // bounds |dx| and |dy|, in cells
     Floats area_a[groups];
     for (int g = 0; g < groups; ++g) {
@@ -100,7 +99,7 @@ struct Paths {
       for (int g = 0; g < groups; ++g) {
         const Floats a = area_a[g], b = dx[g] * by - dy[g] * bx, to = from + (a - b);
         const Masks surely_not = (a * b > far) | (sign_from * to > rounding);
-        bits[g] |= ~surely_not & bit;
+        bits[g] |= exec::unless(surely_not, bit);
         area_a[g] = b;
       }
       ax = bx;
@@ -109,10 +108,13 @@ struct Paths {
     Masks any{};
     for (int g = 0; g < groups; ++g)
       any |= bits[g];
-    for (int k = 1; k < float_lanes; ++k)
-      any[0] |= any[k];
-    return any[0] != 0;
+    int all = 0;
+    for (int k = 0; k < float_lanes; ++k)
+      all |= exec::lane(any, k);
+    return all != 0;
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

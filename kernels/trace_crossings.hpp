@@ -18,11 +18,15 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Brings `records` and `tally` up to date. `domains`: [bodies]. `tile_move`: [tiles] how far (m) a particle
 /// of the tile has moved along an axis since the last trace, at most; null if that is not known.
 template <class Shape, class Real>
 void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particles,
                      const DomainSetting<Real, 2>* domains, const Lattice& lattice, const Cracks& cracks,
                      const double* tile_move, CrackFields& fields);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -1,4 +1,4 @@
-// Relaxed atomic additions for scatters and counters.
+// Relaxed atomic additions for scatters and counters, and marks that several may set.
 #pragma once
 #include <atomic>
 #include <type_traits>
@@ -19,6 +19,16 @@ RIVEN_INLINE T atomic_add(T& target, T value) {
   }
 #else
   return std::atomic_ref<T>(target).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+/// target = value, where others may set it to the same.
+template <class T>
+RIVEN_INLINE void atomic_set(T& target, T value) {
+#if defined(__CUDA_ARCH__)
+  *const_cast<volatile T*>(&target) = value;
+#else
+  std::atomic_ref<T>(target).store(value, std::memory_order_relaxed);
 #endif
 }
 

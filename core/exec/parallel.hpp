@@ -88,6 +88,11 @@ void launch_some(const Space& space, long n, long some, const F& f) {
   });
 }
 
+/// Whether what is launched runs on several threads.
+inline bool concurrent(const Space& space) {
+  return space.threads() > 1;
+}
+
 /// f(i) for i in [0, n); every item is a task of its own (a tile, a body, a chunk).
 template <class F>
 void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
@@ -102,6 +107,26 @@ void parallel_for(const Space& space, const char* label, long n, const F& f) {
     const long end = std::min(n, (c + 1) * chunk);
     for (long i = c * chunk; i < end; ++i)
       f(i);
+  });
+}
+
+/// The threads of a team as one of them sees it: on the host there is but one.
+class Team {
+ public:
+  /// f(i) for i in [0, n), shared out to the threads; then all wait for each other.
+  template <class F>
+  void each(long n, const F& f) const {
+    for (long i = 0; i < n; ++i)
+      f(i);
+  }
+};
+
+/// f(team, own, t) for t in [0, n), each by a team whose threads share `own`, which has any value at first.
+template <class Own, class F>
+void parallel_teams(const Space& space, const char* label, long n, const F& f) {
+  parallel_tasks(space, label, n, [&](long t) {
+    Own own;
+    f(Team{}, own, t);
   });
 }
 

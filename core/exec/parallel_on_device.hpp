@@ -28,6 +28,17 @@ void launch(const Space&, long n, const F& f) {
     detail::launch_each(n, f);
 }
 
+/// The same for small items.
+template <class F>
+void launch_some(const Space& space, long n, long, const F& f) {
+  launch(space, n, f);
+}
+
+/// Whether what is launched runs on several threads.
+inline bool concurrent(const Space&) {
+  return true;
+}
+
 /// f(team, t) for t in [0, n), by teams of so many threads with so many bytes of memory that they share.
 template <class F>
 void launch_teams(const Space&, long n, int threads, size_t shared, const F& f) {
@@ -73,6 +84,13 @@ template <class F>
 void parallel_teams(const Space& space, const char* label, long n, int threads, size_t shared, const F& f) {
   const DeviceStopwatch timed(space, label);
   launch_teams(space, n, threads, shared, f);
+}
+
+template <class Own, class F>
+void parallel_teams(const Space& space, const char* label, long n, const F& f) {
+  constexpr int threads = 64;
+  parallel_teams(space, label, n, threads, sizeof(Own),
+                 [=] RIVEN_KERNEL(const Team& team, long t) { f(team, *team.shared<Own>(), t); });
 }
 
 namespace detail {

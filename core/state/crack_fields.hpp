@@ -149,7 +149,7 @@ struct CrackFields : CrackLists {
   int traces = 0;                  ///< so far
   exec::Array<int> turned;         ///< [nodes] the last trace before which a node of this cell changed sides
   exec::Array<CrossingRecord> records;
-  long used = 0;                       ///< records given away
+  exec::Array<long> used = exec::Array<long>(1);  ///< records given away
   exec::Array<CrossingMemory> memory;  ///< [particles of marked tiles] see TileTrace::known; of tiles, too, that have
                                        ///< been marked since the last sort
   exec::Array<double> limit;           ///< [the same] as TileTrace::limit

@@ -83,6 +83,7 @@ inline Cracks cracks(double t, int grown = 0) {
   const int n = points[0] + points[1];
   c.names = {"flat", "slanted"};
   c.contact.resize(2);
+  c.start.resize(3);
   for (auto* a : {&c.plane, &c.upper, &c.lower, &c.plane0})
     a->resize(n);
   c.crack.resize(n);
@@ -95,7 +96,7 @@ inline Cracks cracks(double t, int grown = 0) {
       c.upper[at] = c.plane[at] + half;
       c.lower[at] = c.plane[at] - half;
     }
-    c.start.push_back(at);
+    c.start[k + 1] = at;
   }
   return c;
 }
