@@ -9,9 +9,8 @@
 // which one surface finds no mass bears nothing on either, so that momentum is kept; sums run in the order of the
 // points, whatever the number of threads.
 #pragma once
-#include <vector>
-
 #include "core/exec/space.hpp"
+#include "core/plan/plan.hpp"
 #include "core/state/state.hpp"
 
 namespace riven {
@@ -24,16 +23,20 @@ struct PointForces {
     Vec2 force[nodes];  ///< N
   };
   Surface surface[2];  ///< upper and lower
-  bool applied = false;
+  bool applied;
 };
+
+inline namespace RIVEN_SIDE {
 
 /// Adds the forces of this step to Grid::q. Shape: that of the particles.
 template <class Shape, class Real>
-void apply_tractions(const exec::Space&, State<Real, 2>&, std::vector<PointForces>&);
+void apply_tractions(const exec::Space&, ScatterKind, State<Real, 2>&, exec::Array<PointForces>&);
 
 /// Once cracks have moved: books the work that pressures did and lets damage follow the openings. `grid.q` holds
 /// [vx vy ax ay].
 template <class Real>
-void settle_tractions(const std::vector<PointForces>&, State<Real, 2>&);
+void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, State<Real, 2>&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -43,12 +43,11 @@ void add_bridge(const State<Real, 2>& s, const Tip& tip, const TipBridge& bridge
 }  // namespace
 
 template <class Real>
-void add_bridges(const State<Real, 2>& s, const std::vector<TipBridge>& bridges, const TipPlaces& places,
-                 TipTask& task) {
+void add_bridges(const State<Real, 2>& s, const TipBridges& bridges, const TipPlaces& places, TipTask& task) {
   const double h = s.grid.lattice.h;
   const JDomain& d = task.domain;
   const double far = std::max({d.outer(right), d.outer(top), d.outer(left), d.outer(bottom)}) + extent * h;
-  if (bridges.empty())
+  if (bridges.of_tip.empty())
     return;
   places.each_near(d.tip, far, [&](size_t k) {
     const Vec2 r = places[k] - d.tip;
@@ -59,13 +58,14 @@ void add_bridges(const State<Real, 2>& s, const std::vector<TipBridge>& bridges,
     if (inside > extent * h || outside > extent * h)
       return;
     const Tip& tip = s.tips[k];
-    if (tip.open && bridges[k].count > 0)
-      add_bridge(s, tip, bridges[k], places[k], tip.crack == task.crack && tip.last == task.last, task);
+    if (tip.open && bridges.of_tip[static_cast<long>(k)].count > 0)
+      add_bridge(s, tip, bridges.of_tip[static_cast<long>(k)], places[k],
+                 tip.crack == task.crack && tip.last == task.last, task);
   });
 }
 
 #define RIVEN_BRIDGES(Real) \
-  template void add_bridges(const State<Real, 2>&, const std::vector<TipBridge>&, const TipPlaces&, TipTask&);
+  template void add_bridges(const State<Real, 2>&, const TipBridges&, const TipPlaces&, TipTask&);
 RIVEN_EACH_REAL(RIVEN_BRIDGES)
 #undef RIVEN_BRIDGES
 

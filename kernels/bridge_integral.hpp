@@ -8,8 +8,6 @@
 // behind (opening.hpp), as next to the tip the faces open as the forces let them. For the tip's own, the interaction
 // integrals take the openings of known fields for delta.
 #pragma once
-#include <vector>
-
 #include "core/fracture/tip_places.hpp"
 #include "kernels/bridge_tips.hpp"
 #include "kernels/j_integral.hpp"
@@ -18,6 +16,6 @@ namespace riven {
 
 /// Adds those of all tips near the domain to the sums of a task. `bridges` and `places`: of State::tips.
 template <class Real>
-void add_bridges(const State<Real, 2>&, const std::vector<TipBridge>& bridges, const TipPlaces& places, TipTask&);
+void add_bridges(const State<Real, 2>&, const TipBridges& bridges, const TipPlaces& places, TipTask&);
 
 }  // namespace riven

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "core/exec/parallel.hpp"
 #include "core/fracture/crack_path.hpp"
+#include "core/fracture/tip_places.hpp"
+#include "kernels/crack_view.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 namespace {
 
@@ -19,13 +25,19 @@ constexpr double beside = 1.5;
 /// Least share of a node's weight at which faces that have moved away from it are taken to feel it.
 constexpr double least_felt = 0.1;
 
-double share_at(double s) {
+RIVEN_FN double share_at(double s) {
   return free_share * (1 - std::sqrt(std::max(0.0, 1 - std::max(0.0, front - s))));
 }
 
+/// A tip as a kernel sees it.
+struct TipEnd {
+  int crack;
+  bool last, open;
+};
+
 /// Half the opening of a tip's crack at `behind` m from its tip, m; 0 ahead of it and where the faces overlap. `t`: out
 /// of the tip along the crack.
-double half_opening(const Cracks& cracks, const Tip& tip, Vec2 t, double behind) {
+RIVEN_FN double half_opening(const CrackView& cracks, const TipEnd& tip, Vec2 t, double behind) {
   const int end = cracks.end_point(tip.crack, tip.last), other = cracks.end_point(tip.crack, !tip.last);
   const int step = tip.last ? -1 : 1;
   const Vec2 across = turned(tip.last ? t : -t);  // towards above
@@ -43,47 +55,99 @@ double half_opening(const Cracks& cracks, const Tip& tip, Vec2 t, double behind)
 
 /// The weight at a face of a node beyond it, over that while the crack is shut: the node lies d from the crack's line,
 /// the face has moved away from that by g, both in cells.
-double felt(double g, double d) {
+RIVEN_FN double felt(double g, double d) {
   return d < 1 - least_felt ? std::max(least_felt, 1 - g / (1 - d)) : 1;
 }
 
 template <class Real>
-void find_bridge(const State<Real, 2>& state, const Tip& tip, TipBridge& bridge) {
-  const CrackFields& fields = state.fields;
-  const Cracks& cracks = state.cracks;
-  const Lattice& l = state.grid.lattice;
-  const Vec2 end = cracks.plane[cracks.end_point(tip.crack, tip.last)];
-  const Vec2 along = end - cracks.plane[cracks.next_to_end(tip.crack, tip.last)];
-  const Vec2 t = along * (1 / norm(along)), c = (end - l.origin) * (1 / l.h);
-  const int i0 = static_cast<int>(std::floor(c.x)), j0 = static_cast<int>(std::floor(c.y));
-  for (int j = std::max(0, j0 - 2); j <= std::min(l.ny - 1, j0 + 3); ++j)
-    for (int i = std::max(0, i0 - 2); i <= std::min(l.nx - 1, i0 + 3); ++i) {
-      const int node = j * l.nx + i, at = fields.node_index[node];
-      if (at < 0 || fields.held[at] == 0)
-        continue;
-      const Vec2 r{i - c.x, j - c.y};
-      const double s = dot(r, t);
-      if (s <= front - 2 || std::fabs(cross(r, t)) > beside)
-        continue;
-      const NodeCracks& n = fields.nodes[at];
-      const int m = n.which(tip.crack);
-      if (m < 0)
-        continue;
-      const auto slot = [&](int field) { return field == 0 ? long{node} : long{l.nodes()} + n.extra + field - 1; };
-      // on either side of the other cracks that the node holds
-      for (int beyond = 0; beyond < n.fields(); ++beyond) {
-        if (beyond & 1 << m)
+struct BridgeFinder {
+  Lattice l;
+  CrackView cracks;
+  const int* node_index;
+  const NodeCracks* nodes;
+  const std::uint8_t* held;
+  const Real* mass;
+
+  RIVEN_FN void find(const TipEnd& tip, TipBridge& bridge) const {
+    const Vec2 end = cracks.plane[cracks.end_point(tip.crack, tip.last)];
+    const Vec2 along = end - cracks.plane[cracks.next_to_end(tip.crack, tip.last)];
+    const Vec2 t = along * (1 / norm(along)), c = (end - l.origin) * (1 / l.h);
+    const int i0 = static_cast<int>(std::floor(c.x)), j0 = static_cast<int>(std::floor(c.y));
+    for (int j = std::max(0, j0 - 2); j <= std::min(l.ny - 1, j0 + 3); ++j)
+      for (int i = std::max(0, i0 - 2); i <= std::min(l.nx - 1, i0 + 3); ++i) {
+        const int at = node_index[j * l.nx + i];
+        if (at < 0 || held[at] == 0)
           continue;
-        const long near = slot(beyond), across = slot(beyond | 1 << m);
-        if (!(state.grid.mass[near] > 0) || !(state.grid.mass[across] > 0))
+        const Vec2 r{i - c.x, j - c.y};
+        const double s = dot(r, t);
+        if (s <= front - 2 || std::fabs(cross(r, t)) > beside)
           continue;
-        const bool near_above = n.side[m] == Side::below;
-        const double at_faces = felt(half_opening(cracks, tip, t, -s * l.h) / l.h, std::fabs(cross(r, t)));
-        if (bridge.count < TipBridge::most)
-          bridge.pair[bridge.count++] = {node, at, near_above ? near : across, near_above ? across : near,
-                                         s > front - 1 ? share_at(s) / at_faces : -at_faces};
+        if (const int m = nodes[at].which(tip.crack); m >= 0)
+          add(tip, t, at, m, s, std::fabs(cross(r, t)), bridge);
       }
+  }
+
+ private:
+  /// The fields of node CrackFields::nodes[at] on either side of the tip's crack, which is the m-th that it holds; once
+  /// for each side of the other cracks that it holds. s and d cells from the tip, along the crack and across.
+  RIVEN_FN void add(const TipEnd& tip, Vec2 t, int at, int m, double s, double d, TipBridge& bridge) const {
+    const NodeCracks& n = nodes[at];
+    const auto slot = [&](int field) { return field == 0 ? long{n.node} : long{l.nodes()} + n.extra + field - 1; };
+    for (int beyond = 0; beyond < n.fields(); ++beyond) {
+      if (beyond & 1 << m)
+        continue;
+      const long near = slot(beyond), across = slot(beyond | 1 << m);
+      if (!(mass[near] > 0) || !(mass[across] > 0))
+        continue;
+      const bool near_above = n.side[m] == Side::below;
+      const double at_faces = felt(half_opening(cracks, tip, t, -s * l.h) / l.h, d);
+      if (bridge.count < TipBridge::most)
+        bridge.pair[bridge.count++] = {n.node,
+                                       at,
+                                       near_above ? near : across,
+                                       near_above ? across : near,
+                                       s > front - 1 ? share_at(s) / at_faces : -at_faces,
+                                       {}};
     }
+  }
+};
+
+/// Tips whose nodes may be the same lie this near to each other, in cells.
+constexpr double shared_within = 6;
+
+/// Groups the tips that have to wait for each other; all of them on the host, which sees to one after the other.
+void group(const Cracks& cracks, const std::vector<Tip>& tips, double h, TipBridges& bridges) {
+  const int count = static_cast<int>(tips.size());
+  bridges.tip.resize(count);
+  if (exec::lanes > 1) {
+    std::iota(bridges.tip.begin(), bridges.tip.end(), 0);
+    bridges.start.resize(2);
+    bridges.start[1] = count;
+    return;
+  }
+  bridges.start.resize(count + 1);
+  int groups = 0, listed = 0;
+  std::vector<Vec2> at;
+  for (const Tip& t : tips)
+    at.push_back(cracks.plane[cracks.end_point(t.crack, t.last)]);
+  const TipPlaces places(std::move(at));
+  std::vector<bool> known(tips.size());
+  for (int first = 0; first < count; ++first) {
+    if (known[static_cast<size_t>(first)])
+      continue;
+    known[static_cast<size_t>(first)] = true;
+    const int begin = bridges.start[groups++] = listed;
+    bridges.tip[listed++] = first;
+    for (int k = begin; k < listed; ++k)
+      places.each_near(places[static_cast<size_t>(bridges.tip[k])], shared_within * h, [&](size_t near) {
+        if (!known[near])
+          bridges.tip[listed++] = static_cast<int>(near);
+        known[near] = true;
+      });
+    std::sort(&bridges.tip[begin], &bridges.tip[begin] + (listed - begin));
+  }
+  bridges.start[groups] = listed;
+  bridges.start.resize(groups + 1);
 }
 
 /// Brings the jumps around one tip to what the bridge asks for.
@@ -91,9 +155,14 @@ template <class Real, ContactStage stage>
 class Bridging {
  public:
   Bridging(State<Real, 2>& s, FieldImpulses& impulses)
-      : motion_(s.grid), notes_(impulses, s.grid.lattice), nodes_(s.fields.nodes.data()), dt_(s.clock.dt) {}
+      : motion_(s.grid),
+        notes_(impulses, s.grid.lattice),
+        nodes_(exec::data(std::as_const(s.fields.nodes))),
+        dt_(s.clock.dt) {}
 
-  void across(TipBridge& bridge) {
+  RIVEN_FN void across(TipBridge& bridge) const {
+    Vec2 jumps[TipBridge::most];
+    double reduced_mass[TipBridge::most];
     Vec2 behind, sum;
     double mass = 0, all = 0, at_faces = 0;
     for (int k = 0; k < bridge.count; ++k) {
@@ -101,8 +170,8 @@ class Bridging {
       const double ma = motion_.mass[p.above], mb = motion_.mass[p.below];
       const double reduced = ma * mb / (ma + mb);
       const Vec2 jump = motion_.momentum_of(p.above) * (1 / ma) - motion_.momentum_of(p.below) * (1 / mb);
-      jump_[k] = jump;
-      reduced_[k] = reduced;
+      jumps[k] = jump;
+      reduced_mass[k] = reduced;
       if (p.share < 0) {
         behind += reduced * jump;
         mass += reduced;
@@ -119,7 +188,7 @@ class Bridging {
     const Vec2 shift = W - behind * (1 / mass);
     for (int k = 0; k < bridge.count; ++k) {
       BridgedPair& p = bridge.pair[k];
-      const Vec2 impulse = reduced_[k] * (p.share < 0 ? shift : (at_faces * p.share) * W - jump_[k]);
+      const Vec2 impulse = reduced_mass[k] * (p.share < 0 ? shift : (at_faces * p.share) * W - jumps[k]);
       if constexpr (stage == ContactStage::after)
         p.force = impulse * (1 / dt_);
       push(p, p.above, impulse);
@@ -128,7 +197,7 @@ class Bridging {
   }
 
  private:
-  void push(const BridgedPair& p, long slot, Vec2 impulse) {
+  RIVEN_FN void push(const BridgedPair& p, long slot, Vec2 impulse) const {
     const Vec2 velocity = (motion_.momentum_of(slot) + impulse) * (1 / double(motion_.mass[slot]));
     motion_.change(slot, impulse, velocity, dt_);
     notes_.add(stage, p.flagged, nodes_[p.flagged], slot, impulse);
@@ -138,45 +207,63 @@ class Bridging {
   ImpulseNotes notes_;
   const NodeCracks* nodes_;
   double dt_;
-  Vec2 jump_[TipBridge::most];
-  double reduced_[TipBridge::most];
 };
 
 template <ContactStage stage, class Real>
-void run(State<Real, 2>& s, std::vector<TipBridge>& bridges, FieldImpulses& impulses) {
-  Bridging<Real, stage> bridging(s, impulses);
-  for (TipBridge& bridge : bridges)
-    bridging.across(bridge);
+void run(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, FieldImpulses& impulses) {
+  const Bridging<Real, stage> bridging(s, impulses);
+  const int *start = exec::data(std::as_const(bridges.start)), *tip = exec::data(std::as_const(bridges.tip));
+  exec::parallel_tasks(space, "bridge tips", bridges.start.size() - 1,
+                       [=, bridge = exec::data(bridges.of_tip)] RIVEN_KERNEL(long g) {
+                         for (int k = start[g]; k < start[g + 1]; ++k)
+                           bridging.across(bridge[tip[k]]);
+                       });
 }
 
 }  // namespace
 
 template <class Real>
-void list_bridges(const exec::Space& space, const State<Real, 2>& s, std::vector<TipBridge>& bridges) {
-  bridges.resize(s.tips.size());
-  exec::parallel_tasks(space, "bridge tips", static_cast<long>(s.tips.size()), [&](long k) {
+void list_bridges(const exec::Space& space, const State<Real, 2>& s, TipBridges& bridges) {
+  const long tips = static_cast<long>(s.tips.size());
+  exec::Array<TipEnd> ends(tips);
+  for (long k = 0; k < tips; ++k) {
     const Tip& tip = s.tips[static_cast<size_t>(k)];
-    TipBridge& bridge = bridges[static_cast<size_t>(k)];
-    bridge.count = 0;
-    if (tip.open)
-      find_bridge(s, tip, bridge);
-  });
+    ends[k] = {tip.crack, tip.last, tip.open};
+  }
+  group(s.cracks, s.tips, s.grid.lattice.h, bridges);
+  bridges.of_tip.resize(tips);
+  const BridgeFinder<Real> finder{s.grid.lattice,
+                                  crack_view(s.cracks),
+                                  exec::data(s.fields.node_index),
+                                  exec::data(s.fields.nodes),
+                                  exec::data(s.fields.held),
+                                  exec::data(s.grid.mass)};
+  exec::parallel_tasks(
+      space, "bridge tips", tips,
+      [=, end = exec::data(std::as_const(ends)), bridge = exec::data_to_fill(bridges.of_tip)] RIVEN_KERNEL(long k) {
+        bridge[k].count = 0;
+        if (end[k].open)
+          finder.find(end[k], bridge[k]);
+      });
 }
 
 template <class Real>
-void bridge_tips(State<Real, 2>& s, std::vector<TipBridge>& bridges, ContactStage stage, FieldImpulses& impulses) {
+void bridge_tips(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, ContactStage stage,
+                 FieldImpulses& impulses) {
   switch (stage) {
-    case ContactStage::before: return run<ContactStage::before>(s, bridges, impulses);
-    case ContactStage::after: return run<ContactStage::after>(s, bridges, impulses);
-    case ContactStage::again: return run<ContactStage::again>(s, bridges, impulses);
-    case ContactStage::higher: return run<ContactStage::higher>(s, bridges, impulses);
+    case ContactStage::before: return run<ContactStage::before>(space, s, bridges, impulses);
+    case ContactStage::after: return run<ContactStage::after>(space, s, bridges, impulses);
+    case ContactStage::again: return run<ContactStage::again>(space, s, bridges, impulses);
+    case ContactStage::higher: return run<ContactStage::higher>(space, s, bridges, impulses);
   }
 }
 
-#define RIVEN_BRIDGE_TIPS(Real)                                                                   \
-  template void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&); \
-  template void bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage, FieldImpulses&);
+#define RIVEN_BRIDGE_TIPS(Real)                                                       \
+  template void list_bridges(const exec::Space&, const State<Real, 2>&, TipBridges&); \
+  template void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&);
 RIVEN_EACH_REAL(RIVEN_BRIDGE_TIPS)
 #undef RIVEN_BRIDGE_TIPS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -29,8 +29,6 @@
 // a cell behind them (finite elements at large strains: 1.0 %): 1.4 % with the crack on a row of nodes, 1.3 midway
 // between rows (with phi = 1: 3.0 and 3.9).
 #pragma once
-#include <vector>
-
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
 #include "kernels/field_impulses.hpp"
@@ -43,22 +41,33 @@ struct BridgedPair {
   int flagged;        ///< position in CrackFields::nodes
   long above, below;  ///< slots
   double share;       ///< lambda / phi, or -phi for a node behind
-  Vec2 force{};       ///< N, on the field above, in the momentum update
+  Vec2 force;         ///< N, on the field above, in the momentum update
 };
 
 /// Those around one tip.
 struct TipBridge {
   static constexpr int most = 64;
-  int count = 0;
+  int count;
   BridgedPair pair[most];
 };
 
+/// Those around all tips.
+struct TipBridges {
+  exec::Array<TipBridge> of_tip;  ///< [tips] of State::tips
+  exec::Array<int> start;         ///< [groups + 1] tips that are near enough to share nodes, and have to wait for each
+  exec::Array<int> tip;           ///< other; the groups need not
+};
+
+inline namespace RIVEN_SIDE {
+
 /// Finds the nodes around all open tips.
 template <class Real>
-void list_bridges(const exec::Space&, const State<Real, 2>&, std::vector<TipBridge>&);
+void list_bridges(const exec::Space&, const State<Real, 2>&, TipBridges&);
 
-/// Changes their motion, one tip after the other, and notes the impulses.
+/// Changes their motion, one tip of a group after the other, and notes the impulses.
 template <class Real>
-void bridge_tips(State<Real, 2>&, std::vector<TipBridge>&, ContactStage, FieldImpulses&);
+void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

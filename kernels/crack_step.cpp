@@ -41,8 +41,9 @@ void find_fields(SimulationOf<Real>& m) {
 
 template <class Real>
 void load_faces(SimulationOf<Real>& m) {
-  with_shape(m.plan.shape,
-             [&](auto shape) { apply_tractions<typename decltype(shape)::type>(m.space, m.state, m.point_forces); });
+  with_shape(m.plan.shape, [&](auto shape) {
+    apply_tractions<typename decltype(shape)::type>(m.space, m.plan.scatter, m.state, m.point_forces);
+  });
 }
 
 template <class Real>

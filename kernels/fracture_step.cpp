@@ -245,24 +245,6 @@ class JSearch {
 }  // namespace
 
 template <class Real>
-void bridge_before_update(SimulationOf<Real>& m) {
-  list_bridges(m.space, m.state, m.bridges);
-  bridge_tips(m.state, m.bridges, ContactStage::before, m.impulses);
-}
-template <class Real>
-void bridge_after_update(SimulationOf<Real>& m) {
-  bridge_tips(m.state, m.bridges, ContactStage::after, m.impulses);
-}
-template <class Real>
-void bridge_on_high(SimulationOf<Real>& m) {
-  bridge_tips(m.state, m.bridges, ContactStage::higher, m.impulses);
-}
-template <class Real>
-void bridge_after_extrapolation(SimulationOf<Real>& m) {
-  bridge_tips(m.state, m.bridges, ContactStage::again, m.impulses);
-}
-
-template <class Real>
 void find_j_and_k(SimulationOf<Real>& m) {
   const Clock& c = m.state.clock;
   if (!m.contact_watch.on) {  // no faces act on each other
@@ -279,12 +261,7 @@ void find_j_and_k(SimulationOf<Real>& m) {
   }
 }
 
-#define RIVEN_TASKS(Real)                                        \
-  template void bridge_before_update(SimulationOf<Real>&);       \
-  template void bridge_after_update(SimulationOf<Real>&);        \
-  template void bridge_on_high(SimulationOf<Real>&);             \
-  template void bridge_after_extrapolation(SimulationOf<Real>&); \
-  template void find_j_and_k(SimulationOf<Real>&);
+#define RIVEN_TASKS(Real) template void find_j_and_k(SimulationOf<Real>&);
 RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS
 

@@ -23,14 +23,4 @@ struct FractureReport {
 template <class Real>
 void find_j_and_k(SimulationOf<Real>&);
 
-/// Tips end their cracks between nodes (bridge_tips.hpp), at each stage at which contact acts, and after it.
-template <class Real>
-void bridge_before_update(SimulationOf<Real>&);
-template <class Real>
-void bridge_after_update(SimulationOf<Real>&);
-template <class Real>
-void bridge_on_high(SimulationOf<Real>&);
-template <class Real>
-void bridge_after_extrapolation(SimulationOf<Real>&);
-
 }  // namespace riven

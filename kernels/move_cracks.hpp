@@ -13,22 +13,19 @@
 // in line with it and never cuts it elsewhere.
 #pragma once
 #include "core/exec/space.hpp"
-#include "core/scene/scene.hpp"
 #include "core/state/crack_fields.hpp"
-#include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
+#include "kernels/move_points.hpp"
 
 namespace riven {
 
-struct CrackRules {
-  CrackMotion motion = CrackMotion::surfaces;
-  SurfaceUpdate update = SurfaceUpdate::xpic;
-  double least_mass = 0;  ///< kg; a surface that finds less of it finds nothing
-};
+inline namespace RIVEN_SIDE {
 
 /// `grid.q` holds [vx vy ax ay], `fields` what determine_fields made in this step. Shape: that of the particles.
 template <class Shape, class Real>
 void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
                  double dt, Cracks& cracks);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -13,6 +13,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 template <class Shape, class Real>
 struct Extrapolation {
   static constexpr int width = AxisWeights::width;
@@ -27,10 +29,10 @@ struct Extrapolation {
 
   Extrapolation(const Grid<Real>& grid, const Cracks& cracks, const CrackFields& fields, double dt_)
       : view(surface_view(grid.lattice, cracks, fields)),
-        mass(grid.mass.data()),
-        q(grid.q.data()),
-        extra(fields.extra.data()),
-        held(fields.held.data()),
+        mass(exec::data(grid.mass)),
+        q(exec::data(grid.q)),
+        extra(exec::data(fields.extra)),
+        held(exec::data(fields.held)),
         inv_h(1 / grid.lattice.h),
         dt(dt_) {}
 
@@ -155,7 +157,7 @@ struct Extrapolation {
     }
   }
 
-  PointMotion of_all_fields(Vec2 x) const {
+  RIVEN_FN PointMotion of_all_fields(Vec2 x) const {
     const int first = corner(x);
     if (first == off_grid)
       return {};
@@ -174,5 +176,7 @@ struct Extrapolation {
     return fit_motion(sums, view.lattice.h);
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

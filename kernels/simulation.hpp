@@ -56,8 +56,8 @@ class SimulationOf {
   FieldImpulses impulses;  ///< of contact and of bridges, in the step
 
   FractureReport fracture;
-  std::vector<TipBridge> bridges;         ///< [tips]
-  std::vector<PointForces> point_forces;  ///< of tractions on faces
+  TipBridges bridges;
+  exec::Array<PointForces> point_forces;  ///< of tractions on faces
 
   Vec2 gravity() const;         ///< body force per mass in the middle of the step, m/s^2
   double grid_damping() const;  ///< 1/s

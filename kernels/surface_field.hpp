@@ -1,17 +1,19 @@
 // v(s,i): the crack velocity field of a node for a point on a crack's surface (Nairn et al., end of the appendix).
 #pragma once
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "core/exec/bits.hpp"
 #include "core/fracture/crossing.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
 
 namespace riven {
+
+inline namespace RIVEN_SIDE {
 
 /// The cracks and what the hash and assign know of them, as a kernel sees it.
 struct SurfaceView {
@@ -30,16 +32,16 @@ struct SurfaceView {
 
 inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
   return {lattice,
-          fields.cell_index.data(),
-          fields.cell_start.data(),
-          fields.cell_segment.data(),
-          fields.node_index.data(),
-          fields.nodes.data(),
-          cracks.crack.data(),
-          cracks.start.data(),
-          cracks.plane.data(),
-          fields.traced.data(),
-          cracks.open.data()};
+          exec::data(fields.cell_index),
+          exec::data(fields.cell_start),
+          exec::data(fields.cell_segment),
+          exec::data(fields.node_index),
+          exec::data(fields.nodes),
+          exec::data(cracks.crack),
+          exec::data(cracks.start),
+          exec::data(cracks.plane),
+          exec::data(fields.traced),
+          exec::data(cracks.open)};
 }
 
 /// A crack's point and the crack around it.
@@ -52,7 +54,7 @@ struct CrackPoint {
   double off;   ///< a node further from the line along the point is to one side of the crack; infinite if it turns
 };
 
-inline CrackPoint crack_point(const SurfaceView& view, int point) {
+inline RIVEN_FN CrackPoint crack_point(const SurfaceView& view, int point) {
   const int crack = view.crack[point];
   const int first = view.start[crack], last = view.start[crack + 1] - 1;
   const Vec2 x = view.plane[point];
@@ -63,7 +65,7 @@ inline CrackPoint crack_point(const SurfaceView& view, int point) {
     return {crack, x, turned(t), {}, true, std::numeric_limits<double>::infinity()};  // the line along it ends nearby
   CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, 0};
   double bend = 0, back = length > 0 ? 0 : -1;
-  for (int step : {-1, 1}) {
+  for (int step = -1; step <= 1; step += 2) {
     int k = point + step;
     for (; k >= first && k <= last; k += step) {
       const Vec2 r = view.traced[k] - x;
@@ -203,7 +205,7 @@ struct NodesAround {
 
   /// Without branches: which nodes around a crack see it is beyond prediction.
   RIVEN_INLINE void load(const SurfaceView& view, int first) {
-    static constexpr NodeCracks sees_none{};
+    constexpr NodeCracks sees_none{};
     for (int b = 0, n = 0; b < surface_width; ++b, first += view.lattice.nx)
       for (int a = 0; a < surface_width; ++a, ++n) {
         const int f = view.node_index[first + a];
@@ -262,7 +264,7 @@ RIVEN_INLINE void find_slots(const SurfaceView& view, SurfacePoint* s, int first
     unsure |= static_cast<unsigned>(around.flagged[n] & ((near & (loose | tip)) | others)) << n;
   }
   for (; unsure != 0; unsure &= unsure - 1) {
-    const int n = std::countr_zero(unsure), node = first + n / surface_width * l.nx + n % surface_width;
+    const int n = exec::lowest_bit(unsure), node = first + n / surface_width * l.nx + n % surface_width;
     const NodeCracks& held = view.nodes[view.node_index[node]];
     const Vec2 place = l.position(node);
     for (int k = 0; k < 2; ++k) {
@@ -291,5 +293,7 @@ RIVEN_INLINE void slots_of_surfaces(const SurfaceView& view, const SurfacePair& 
   if (pair.first[1] != pair.first[0])
     detail::find_lower_slots(view, s, pair.first[1], slot);
 }
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -33,7 +33,7 @@ struct PointMotion {
   Vec2 before;      ///< velocity before the forces, m/s
   Vec2 acceleration;
   double spin = 0;  ///< rad/s
-  Vec2 after(double dt) const { return before + dt * acceleration; }
+  RIVEN_INLINE Vec2 after(double dt) const { return before + dt * acceleration; }
 };
 
 /// The gradient L of a fit in the principal directions p, q of C.
@@ -133,10 +133,10 @@ struct TurningForce {
   Vec2 centre;
   FittedGradient G;
 
-  TurningForce(const MassAround& mass, Vec2 F, double h)
+  RIVEN_INLINE TurningForce(const MassAround& mass, Vec2 F, double h)
       : wide(mass.wide), centre(mass.centre), G(mass.fit(mass.arm.x * F, mass.arm.y * F, h)) {}
   /// On the node of mass m at r from the point, whose weight is B.
-  Vec2 on(double m, double B, Vec2 r) const { return (m * wide * B) * G(r - centre); }
+  RIVEN_INLINE Vec2 on(double m, double B, Vec2 r) const { return (m * wide * B) * G(r - centre); }
 };
 
 /// The motion at the point, zeros where there is no mass; without branches. `h`: the cell.
@@ -154,22 +154,24 @@ RIVEN_INLINE PointMotion fit_motion(const SurfaceSums& s, double h) {
           kept(L.spin)};
 }
 
+inline namespace RIVEN_SIDE {
+
 /// Several surfaces side by side, those of a point following each other, and the nodes around them, row by row, as each
 /// surface sees them.
 template <class Real>
-struct alignas(64) SurfaceLanes {
-  static constexpr int lanes = 16, nodes = AxisWeights::width * AxisWeights::width;
+struct alignas(exec::line) SurfaceLanes {
+  static constexpr int lanes = exec::lanes > 1 ? 16 : 2, nodes = AxisWeights::width * AxisWeights::width;
   double x[lanes], y[lanes];
   Real mass[nodes][lanes];
   Real q[nodes][lanes][4];  ///< [vx vy ax ay]
 };
 
 /// Their motions.
-struct alignas(64) MotionLanes {
+struct alignas(exec::line) MotionLanes {
   static constexpr int lanes = SurfaceLanes<double>::lanes, numbers = 6;
   double value[numbers][lanes];
 
-  PointMotion motion(int lane) const {
+  RIVEN_INLINE PointMotion motion(int lane) const {
     const auto at = [&](int n) { return value[n][lane]; };
     return {at(0), {at(1), at(2)}, {at(3), at(4)}, at(5)};
   }
@@ -182,5 +184,7 @@ struct alignas(64) MotionLanes {
     value[5][lane] = m.spin;
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -29,7 +29,7 @@ struct Square {
     list_bridges(space, m.state, bridges);
     clear_impulses(m.state.fields, m.impulses);
   }
-  void bridge() { bridge_tips(m.state, bridges, ContactStage::before, m.impulses); }
+  void bridge() { bridge_tips(space, m.state, bridges, ContactStage::before, m.impulses); }
   static Scene make(Vec2 tip, double angle, const std::vector<CrackLine>& others) {
     Scene s = test::empty_scene(1, {{-10, -10}, {10, 10}});
     s.bodies = {test::body("square", Rectangle{{-8, -8}, {8, 8}})};
@@ -52,7 +52,7 @@ struct Square {
   const exec::Space space{exec::Kind::serial, 1};
   Scene scene;
   Simulation m{scene, space};
-  std::vector<TipBridge> bridges;
+  TipBridges bridges;
 };
 
 constexpr Vec2 places[] = {{0, 0}, {0.1, 0}, {0.5, 0}, {0.9, 0}, {0.3, 0.5}, {-0.2, 0.27}};
@@ -61,8 +61,8 @@ TEST(BridgeTips, LetNodesPartByAShareOfThoseBehind) {
   for (const Vec2 tip : places)
     for (const double angle : {0., 0.4, 2.5}) {
       Square s(tip, angle);
-      ASSERT_EQ(s.bridges.size(), 1u);
-      const TipBridge& bridge = s.bridges[0];
+      ASSERT_EQ(s.bridges.of_tip.size(), 1);
+      const TipBridge& bridge = s.bridges.of_tip[0];
       s.bridge();
       Vec2 behind;
       double mass = 0;
@@ -100,7 +100,7 @@ TEST(BridgeTips, LetNodesPartByWhatOpenFacesFeel) {
     c.lower[k] -= up;
   }
   list_bridges(s.space, s.m.state, s.bridges);
-  const TipBridge& bridge = s.bridges[0];
+  const TipBridge& bridge = s.bridges.of_tip[0];
   s.bridge();
   const auto pair_at = [&](Vec2 x) -> const BridgedPair& {
     for (const BridgedPair& p : bridge.pair)
@@ -122,8 +122,8 @@ TEST(BridgeTips, KeepMomentumAndLoseEnergyOnce) {
       Square s(tip, angle);
       const Square before(tip, angle);
       s.bridge();
-      for (int k = 0; k < s.bridges[0].count; ++k) {
-        const BridgedPair& p = s.bridges[0].pair[k];
+      for (int k = 0; k < s.bridges.of_tip[0].count; ++k) {
+        const BridgedPair& p = s.bridges.of_tip[0].pair[k];
         const Vec2 was = before.momentum(p.above) + before.momentum(p.below);
         EXPECT_LT(norm(s.momentum(p.above) + s.momentum(p.below) - was), 1e-12 * norm(was) + 1e-15);
         for (const long slot : {p.above, p.below}) {
@@ -141,12 +141,12 @@ TEST(BridgeTips, KeepMomentumAndLoseEnergyOnce) {
 /// On the far side of another crack, too, the faces part as those on this side do.
 TEST(BridgeTips, SeeBothSidesOfAnotherCrack) {
   Square alone({0.3, 0.1}, 0), crossed({0.3, 0.1}, 0, {test::crack("across", {{-1.3, -9}, {-1.3, 9}})});
-  EXPECT_GT(crossed.bridges[0].count, alone.bridges[0].count);
+  EXPECT_GT(crossed.bridges.of_tip[0].count, alone.bridges.of_tip[0].count);
 }
 
 TEST(BridgeTips, LeaveEndsOutsideOfSolidsAlone) {
   const Square s({12, 0.1}, 0);
-  EXPECT_TRUE(s.bridges.empty() || s.bridges[0].count == 0);
+  EXPECT_TRUE(s.bridges.of_tip.empty() || s.bridges.of_tip[0].count == 0);
 }
 
 }  // namespace

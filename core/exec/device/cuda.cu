@@ -11,6 +11,11 @@ Found find() {
   if (const cudaError_t result = cudaGetDeviceCount(&count); result != cudaSuccess || count == 0)
     return {false,
             std::string("no CUDA device: ") + (result == cudaSuccess ? "none is there" : cudaGetErrorString(result))};
+  // what is given back stays at hand: kernels ask for small memory in every step
+  cudaMemPool_t pool;
+  check(cudaDeviceGetDefaultMemPool(&pool, 0), "look for its memory");
+  unsigned long long all = ~0ull;
+  check(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all), "keep memory");
   cudaDeviceProp properties;
   check(cudaGetDeviceProperties(&properties, 0), "look for a device");
   return {true, properties.name};
@@ -18,12 +23,13 @@ Found find() {
 
 void* allocate(size_t bytes) {
   void* there = nullptr;
-  check(cudaMalloc(&there, bytes), "allocate");
+  check(cudaMallocAsync(&there, bytes, nullptr), "allocate");
   return there;
 }
 
 void release(void* there) noexcept {
-  cudaFree(there);  // what was launched is over, or the launch after it says so
+  if (there)
+    cudaFreeAsync(there, nullptr);  // once what was launched before is done; if that fails, the next launch says so
 }
 
 void to_device(void* there, const void* here, size_t bytes) {
