@@ -11,6 +11,7 @@
 #include "core/fracture/tip_places.hpp"
 #include "core/scene/schedule.hpp"
 #include "kernels/bridge_integral.hpp"
+#include "kernels/bring_near.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
@@ -23,6 +24,10 @@ constexpr double fastest_fields = 0.6;
 
 /// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
+
+/// Cells around a contour whose particles have a part in what is found: those of faces beside it, and how far particles
+/// have moved since they were sorted.
+constexpr double around_contour = 12;
 
 void count(long& counter, Vec2& place, Vec2 here) {
   if (counter++ == 0)
@@ -65,6 +70,8 @@ class JSearch {
     std::vector<Vec2> places;
     for (const Tip& t : tips_)
       places.push_back(position_of(s_.cracks, t));
+    exec::PartsOnHost parts;
+    bring_near(m_.space, s_, places_of(due), half_ / m_.scene.cell + around_contour, parts);
     places_ = TipPlaces(std::move(places));
     while (!due.empty()) {
       std::vector<TipTask> tasks(due.size());
@@ -92,6 +99,13 @@ class JSearch {
       for (size_t k = first; k < last; ++k)
         f(k);
     });
+  }
+
+  std::vector<Vec2> places_of(const std::vector<Due>& due) const {
+    std::vector<Vec2> list;
+    for (const Due& d : due)
+      list.push_back(position_of(s_.cracks, *d.tip));
+    return list;
   }
 
   TipTask place(Due& d) const {

@@ -8,6 +8,7 @@
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/state/make_tips.hpp"
+#include "kernels/bring_near.hpp"
 #include "kernels/particles_near.hpp"
 #include "kernels/simulation.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face each other, and are in each other's way
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on
+constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
 constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
 
 template <class Real>
@@ -220,14 +222,25 @@ class Growth {
 template <class Real>
 void grow_cracks(SimulationOf<Real>& m) {
   auto& s = m.state;
-  std::vector<Rectangle> boxes;  // only once a tip is due
-  for (Tip& tip : s.tips) {
-    if (!growth_due(tip, s.clock.step) || tip.step != s.clock.step)
+  std::vector<Tip*> due;
+  std::vector<Vec2> places;
+  for (Tip& tip : s.tips)
+    if (growth_due(tip, s.clock.step) && tip.step == s.clock.step) {
+      due.push_back(&tip);
+      places.push_back(s.cracks.plane[s.cracks.end_point(tip.crack, tip.last)]);
+    }
+  if (due.empty())
+    return;
+  exec::PartsOnHost parts;
+  bring_near(m.space, s, places, 0.5 * m.scene.fracture.contour + around_tip, parts);
+  std::vector<Rectangle> boxes;
+  for (int c = 0; c < s.cracks.count(); ++c)
+    boxes.push_back(box_of(s.cracks, c));
+  for (Tip* tip : due) {
+    if (!growth_due(*tip, s.clock.step))  // another one has met it
       continue;
-    for (int c = static_cast<int>(boxes.size()); c < s.cracks.count(); ++c)
-      boxes.push_back(box_of(s.cracks, c));
-    Growth(m, tip, boxes).check();
-    boxes[static_cast<size_t>(tip.crack)] = box_of(s.cracks, tip.crack);
+    Growth(m, *tip, boxes).check();
+    boxes[static_cast<size_t>(tip->crack)] = box_of(s.cracks, tip->crack);
   }
 }
 

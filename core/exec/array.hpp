@@ -64,6 +64,11 @@ class Array {
     }
   }
   void clear() { resize(0); }
+  /// New size, for items that are all written before they are read.
+  void renew(long n) {
+    mirror_.drop();
+    resize(n);
+  }
   void zero() {
     if (size_)
       std::memset(static_cast<void*>(data()), 0, bytes_held());
@@ -98,6 +103,10 @@ class Array {
   T* device_data_to_fill() {
     return data_ ? static_cast<T*>(mirror_.device_overwrites(data_, bytes_held(), bytes_of(capacity_))) : nullptr;
   }
+
+  /// Brings parts to the host: PartsOnHost. False if there was nothing to bring.
+  bool bring_parts(const RangeList& ranges) const { return mirror_.host_reads_parts(data_, sizeof(T), ranges); }
+  Mirror& mirror() const { return mirror_; }
 
  private:
   size_t bytes_held() const { return static_cast<size_t>(size_) * sizeof(T); }

@@ -22,6 +22,9 @@ void release(void* there) noexcept;
 void to_device(void* there, const void* here, size_t bytes);
 /// Waits for what the device is at.
 void to_host(void* here, const void* there, size_t bytes);
+/// What is in some ranges of an array with items of so many bytes, one range after the other. `ranges`: on the device,
+/// `count` of [first, last) and then, count + 1 of them, where each begins among all of their `items`.
+void gather(void* here, const void* there, const void* ranges, long count, long items, size_t item);
 void zero(void* there, size_t bytes);
 /// Waits until the device has done all that it was asked for.
 void wait();

@@ -44,6 +44,40 @@ void Mirror::fetch(void* here, size_t bytes) {
   newer_.store(Newer::neither, std::memory_order_release);
 }
 
+bool Mirror::host_reads_parts(void* here, size_t item, const RangeList& ranges) {
+  if (newer_ != Newer::device)
+    return false;
+  ranges.to_host(here, there_, item);
+  newer_ = Newer::device_but_parts;
+  return true;
+}
+
+RangeList::RangeList(const std::vector<Range>& ranges) : ranges_(ranges), begin_(1) {
+  for (const Range& r : ranges)
+    begin_.push_back(begin_.back() + r.last - r.first);
+  const size_t bytes = ranges.size() * sizeof(Range);
+  there_ = device::allocate(bytes + begin_.size() * sizeof(long));
+  device::to_device(there_, ranges.data(), bytes);
+  device::to_device(static_cast<char*>(there_) + bytes, begin_.data(), begin_.size() * sizeof(long));
+}
+
+RangeList::~RangeList() {
+  device::release(there_);
+}
+
+void RangeList::to_host(void* here, const void* there, size_t item) const {
+  const size_t bytes = static_cast<size_t>(begin_.back()) * item;
+  if (bytes == 0)
+    return;
+  std::vector<char> packed(bytes);
+  device::gather(packed.data(), there, there_, static_cast<long>(ranges_.size()), begin_.back(), item);
+  for (size_t r = 0; r < ranges_.size(); ++r)
+    std::memcpy(static_cast<char*>(here) + static_cast<size_t>(ranges_[r].first) * item,
+                packed.data() + static_cast<size_t>(begin_[r]) * item,
+                static_cast<size_t>(ranges_[r].last - ranges_[r].first) * item);
+  fetched += static_cast<long>(bytes);
+}
+
 void Mirror::make_room(size_t room) {
   if (room <= room_)
     return;
@@ -68,7 +102,7 @@ void* Mirror::device_reads(const void* here, size_t bytes, size_t room) {
 
 void* Mirror::device_writes(void* here, size_t bytes, size_t room) {
   device_reads(here, bytes, room);
-  if (newer_ != Newer::device)
+  if (newer_ != Newer::device)  // parts of it have to be brought anew
     spoil(here, bytes);
   newer_ = Newer::device;
   return there_;

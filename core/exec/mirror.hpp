@@ -5,8 +5,14 @@
 #include <atomic>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace riven::exec {
+
+/// Items [first, last) of an array.
+struct Range {
+  long first, last;
+};
 
 /// Bytes that mirrors have copied so far.
 struct Traffic {
@@ -15,6 +21,22 @@ struct Traffic {
 Traffic traffic();
 
 #if defined(RIVEN_DEVICE)
+
+/// The same of several arrays, known to the device.
+class RangeList {
+ public:
+  explicit RangeList(const std::vector<Range>& ranges);
+  ~RangeList();
+  RangeList(const RangeList&) = delete;
+  RangeList& operator=(const RangeList&) = delete;
+  /// Copies what is in them of an array with items of so many bytes.
+  void to_host(void* here, const void* there, size_t item) const;
+
+ private:
+  const std::vector<Range>& ranges_;
+  std::vector<long> begin_;  ///< [ranges + 1] where each begins among all of their items
+  void* there_ = nullptr;    ///< both on the device
+};
 
 class Mirror {
  public:
@@ -38,6 +60,7 @@ class Mirror {
   void host_writes(void* here, size_t bytes) {
     if (newer_.load(std::memory_order_acquire) == Newer::host)
       return;
+    end_parts();
     host_reads(here, bytes);
     newer_.store(Newer::host, std::memory_order_release);
   }
@@ -47,11 +70,21 @@ class Mirror {
   /// The same where the device is about to write all that there is.
   void* device_overwrites(void* here, size_t bytes, size_t room);
 
+  /// What is in the ranges is the same on the host until end_parts(). False if all of it is, anyway.
+  bool host_reads_parts(void* here, size_t item, const RangeList& ranges);
+  void end_parts() {
+    if (newer_ == Newer::device_but_parts)
+      newer_ = Newer::device;
+  }
+
+  /// Nobody reads what is there now on either side.
+  void drop() { newer_ = Newer::host; }
+
   /// The host's copy is the only one from now on, and there are other numbers in it.
   void forget() noexcept;
 
  private:
-  enum class Newer { host, neither, device };
+  enum class Newer { host, neither, device, device_but_parts };
 
   void fetch(void* here, size_t bytes);
   void make_room(size_t room);
@@ -64,9 +97,16 @@ class Mirror {
 #else
 
 /// Where there is no device there is nothing to keep track of.
+class RangeList {
+ public:
+  explicit RangeList(const std::vector<Range>&) {}
+};
 class Mirror {
  public:
   void swap(Mirror&) noexcept {}
+  bool host_reads_parts(void*, size_t, const RangeList&) { return false; }
+  void end_parts() {}
+  void drop() {}
   void host_reads(void*, size_t) {}
   void host_writes(void*, size_t) {}
   void* device_reads(const void*, size_t, size_t);

@@ -171,7 +171,7 @@ void size_grid(const Plan& plan, State<Real, 2>& s) {
   const auto resize = [&](exec::Array<Real>& a, long width) {
     if (width * slots > a.capacity())
       a.reserve(width * room);
-    a.resize(width * slots);
+    a.renew(width * slots);  // every step clears it
   };
   resize(s.grid.mass, 1);
   resize(s.grid.q, 4);

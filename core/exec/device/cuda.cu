@@ -40,6 +40,47 @@ void to_host(void* here, const void* there, size_t bytes) {
   check(cudaMemcpy(here, there, bytes, cudaMemcpyDeviceToHost), "copy from the device");
 }
 
+namespace {
+
+/// As gather, in words: `per` of them are an item.
+template <class Word>
+__global__ void pack(Word* to, const Word* from, const long* range, long count, long words, long per) {
+  const long* begin = range + 2 * count;
+  for (long w = blockIdx.x * static_cast<long>(blockDim.x) + threadIdx.x; w < words;
+       w += gridDim.x * static_cast<long>(blockDim.x)) {
+    const long item = w / per;
+    long first = 0, last = count;  // the range that holds it
+    while (last - first > 1) {
+      const long middle = (first + last) / 2;
+      (begin[middle] <= item ? first : last) = middle;
+    }
+    to[w] = from[(range[2 * first] + item - begin[first]) * per + w % per];
+  }
+}
+
+template <class Word>
+void launch_pack(void* to, const void* from, const void* ranges, long count, long items, size_t item) {
+  const long per = static_cast<long>(item / sizeof(Word)), words = items * per, threads = 256;
+  pack<<<static_cast<unsigned>((words + threads - 1) / threads), threads>>>(
+      static_cast<Word*>(to), static_cast<const Word*>(from), static_cast<const long*>(ranges), count, words, per);
+  check(cudaGetLastError(), "gather");
+}
+
+}  // namespace
+
+void gather(void* here, const void* there, const void* ranges, long count, long items, size_t item) {
+  const size_t bytes = static_cast<size_t>(items) * item;
+  void* packed = allocate(bytes);
+  if (item % sizeof(long) == 0)
+    launch_pack<long>(packed, there, ranges, count, items, item);
+  else if (item % sizeof(int) == 0)
+    launch_pack<int>(packed, there, ranges, count, items, item);
+  else
+    launch_pack<char>(packed, there, ranges, count, items, item);
+  to_host(here, packed, bytes);
+  release(packed);
+}
+
 void zero(void* there, size_t bytes) {
   if (bytes)
     check(cudaMemsetAsync(there, 0, bytes), "zero");

@@ -32,6 +32,14 @@ void to_host(void* here, const void* there, size_t bytes) {
   std::memcpy(here, there, bytes);
 }
 
+void gather(void* here, const void* there, const void* ranges, long count, long, size_t item) {
+  const long *range = static_cast<const long*>(ranges), *begin = range + 2 * count;
+  for (long r = 0; r < count; ++r)
+    std::memcpy(static_cast<char*>(here) + static_cast<size_t>(begin[r]) * item,
+                static_cast<const char*>(there) + static_cast<size_t>(range[2 * r]) * item,
+                static_cast<size_t>(begin[r + 1] - begin[r]) * item);
+}
+
 void zero(void* there, size_t bytes) {
   std::memset(there, 0, bytes);
 }
