@@ -23,8 +23,8 @@ template <int cracks>
 struct Meetings {
   Meeting list[most_pairs_of(cracks)];
   int count = 0;
-  const Meeting* begin() const { return list; }
-  const Meeting* end() const { return list + count; }
+  RIVEN_INLINE const Meeting* begin() const { return list; }
+  RIVEN_INLINE const Meeting* end() const { return list + count; }
 };
 
 /// Normals of all cracks that a node holds. `third` is not read where there is none.

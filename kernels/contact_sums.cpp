@@ -9,15 +9,18 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 template <class Shape, class Real>
 void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& grid,
-                  const CrackFields& fields, const Cracks& cracks, double thickness, ContactArea* out) {
+                  const CrackFields& fields, const Cracks& cracks, double thickness, exec::Array<ContactArea>& areas) {
   const InterfaceSegments<Shape, Real> segments(domains, grid, fields, cracks);
   const exec::View<const Vec2> jump = exec::view(cracks.jump);  // shorter or empty before the first step
   const long flagged = fields.nodes.size();
-  exec::parallel_tasks(space, "contact areas", cracks.count(), [=](long c) {
+  ContactArea* const out = exec::data(areas);
+  exec::parallel_tasks(space, "contact areas", cracks.count(), [=] RIVEN_KERNEL(long c) {
     segments.each(c, [&](int p, const SegmentFrame& s, auto&& nodes) {
       const double area = thickness * s.length;
       const Vec2 local = p < jump.size ? jump[p] : Vec2{}, opening = local.x * s.normal + local.y * s.along;
@@ -28,7 +31,7 @@ void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real
       });
     });
   });
-  exec::parallel_for(space, "contact areas", 2 * flagged + fields.third_normals.size(), [=](long i) {
+  exec::parallel_for(space, "contact areas", 2 * flagged + fields.third_normals.size(), [=] RIVEN_KERNEL(long i) {
     if (out[i].area > 0)
       out[i].opening *= 1 / out[i].area;
   });
@@ -53,7 +56,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
   sums.area.zero();
   if (!sums.area.empty())
     with_shape(of.shape, [&](auto type) {
-      sum_segments<typename decltype(type)::type>(space, of.domains, grid, fields, cracks, thickness, sums.area.data());
+      sum_segments<typename decltype(type)::type>(space, of.domains, grid, fields, cracks, thickness, sums.area);
     });
 }
 
@@ -62,5 +65,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
                              const Grid<Real>&, const CrackFields&, const Cracks&, double, ContactSums&);
 RIVEN_EACH_REAL(RIVEN_SUMS)
 #undef RIVEN_SUMS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -51,6 +51,8 @@ struct ContactSumsChoice {
   bool area = false;      ///< an interface law
 };
 
+inline namespace RIVEN_SIDE {
+
 /// Forgets the sums over particles of the last step, and adds up crack segments at the flagged nodes. `thickness` of
 /// the plane, m. Needs F or J of the particles for volumes, x0 for positions, Tiles::cell_start for both, and the
 /// grid's masses for interfaces.
@@ -58,8 +60,6 @@ template <class Real>
 void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, const ContactParticles<Real>& of,
                   const Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks, double thickness,
                   ContactSums& sums);
-
-inline namespace RIVEN_SIDE {
 
 /// The way to the sums over particles that were asked for.
 template <class Real>

@@ -6,16 +6,18 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
 template <class Shape, class Real>
 void run(const exec::Space& space, const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& grid,
          const CrackFields& fields, double dt, Cracks& cracks) {
-  const InterfaceSegments<Shape, Real> segments(domains, grid, fields, cracks);
-  const Real* q = grid.q.data();
-  const NodeCracks* nodes = fields.nodes.data();
-  Vec2* jump = cracks.jump.data();
-  exec::parallel_tasks(space, "interface jumps", cracks.count(), [=](long c) {
+  const InterfaceSegments<Shape, Real> segments(domains, grid, fields, std::as_const(cracks));
+  const Real* q = exec::data(grid.q);
+  const NodeCracks* nodes = exec::data(fields.nodes);
+  Vec2* jump = exec::data(cracks.jump);
+  exec::parallel_tasks(space, "interface jumps", cracks.count(), [=] RIVEN_KERNEL(long c) {
     segments.each(c, [&](int p, const SegmentFrame& s, auto&& each_node) {
       each_node([&](int i, int k, double weight) {
         const NodeCracks& n = nodes[i];
@@ -46,5 +48,7 @@ void advance_jumps(const exec::Space& space, ShapeFunction shape, const exec::Ar
                               const Grid<Real>&, const CrackFields&, double, Cracks&);
 RIVEN_EACH_REAL(RIVEN_ADVANCE_JUMPS)
 #undef RIVEN_ADVANCE_JUMPS
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

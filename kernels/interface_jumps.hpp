@@ -16,9 +16,13 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 /// Moves the jumps over one step; the grid holds [vx vy ax ay] after contact. Jumps of new points start at 0.
 template <class Real>
 void advance_jumps(const exec::Space& space, ShapeFunction shape, const exec::Array<DomainSetting<Real, 2>>& domains,
                    const Grid<Real>& grid, const CrackFields& fields, double dt, Cracks& cracks);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

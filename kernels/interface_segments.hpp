@@ -16,6 +16,8 @@
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 struct SegmentFrame {
   double length;  ///< m
   Vec2 along;     ///< from the first to the second point
@@ -40,15 +42,15 @@ struct InterfaceSegments {
                     const Cracks& c)
       : domain(domains[0]),
         lattice(g.lattice),
-        mass(g.mass.data()),
-        extra(f.extra.data()),
-        node_index(f.node_index.data()),
-        nodes(f.nodes.data()),
-        normals(f.normals.data()),
-        third_normals(f.third_normals.data()),
-        start(c.start.data()),
-        plane(c.plane.data()),
-        law(c.contact.data()) {}
+        mass(exec::data(g.mass)),
+        extra(exec::data(f.extra)),
+        node_index(exec::data(f.node_index)),
+        nodes(exec::data(f.nodes)),
+        normals(exec::data(f.normals)),
+        third_normals(exec::data(f.third_normals)),
+        start(exec::data(c.start)),
+        plane(exec::data(c.plane)),
+        law(exec::data(c.contact)) {}
 
   RIVEN_INLINE long slot(const NodeCracks& n, int f) const {
     return f == 0 ? n.node : long{lattice.nodes()} + extra[n.node] + f - 1;
@@ -121,5 +123,7 @@ struct InterfaceSegments {
     }
   }
 };
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

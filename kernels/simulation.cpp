@@ -50,7 +50,7 @@ void SimulationOf<Real>::begin() {
   contact_watch = {};
   impulses = {};
   fracture = {};
-  bridges.clear();
+  bridges = {};
   point_forces.clear();
   for (Task& t : tasks) {
     t.calls = 0;

@@ -70,6 +70,7 @@ class Array {
     resize(n);
   }
   void zero() {
+    mirror_.drop();
     if (size_)
       std::memset(static_cast<void*>(data()), 0, bytes_held());
   }
