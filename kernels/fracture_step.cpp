@@ -27,7 +27,7 @@ constexpr double least_filled = 0.9, least_filled_across = 0.4;
 
 /// Cells around a contour whose particles have a part in what is found: those of faces beside it, and how far particles
 /// have moved since they were sorted.
-constexpr double around_contour = 12;
+constexpr double around_contour = 9;
 
 void count(long& counter, Vec2& place, Vec2 here) {
   if (counter++ == 0)

@@ -9,14 +9,16 @@ cmake --build "$build" -j "$(nproc)" --target riven riven-perf test_core test_ke
 
 for part in ${*:-tests sanitizer throughput}; do
   case $part in
-    tests)  # every space, the device's among them
+    tests)  # every space, the device's among them; over long runs, too
       "$build/tests/test_core"
       "$build/tests/test_kernels"
-      "$build/tests/test_physics" --gtest_filter='Spaces.*'
+      "$build/tests/test_physics" --gtest_filter='Spaces.*' --gtest_also_run_disabled_tests
       ;;
     sanitizer)  # accesses out of bounds, and threads of a team that do not wait for each other
       for tool in memcheck racecheck; do
         compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_kernels" --gtest_filter='Device.*'
+        compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_physics" \
+          --gtest_filter='Spaces.AgreeOnAPlateWithGrowingCracks'
       done
       ;;
     throughput)  # million particle-steps per second beside the processor's
