@@ -56,7 +56,8 @@ RIVEN_FN double half_opening(const CrackView& cracks, const TipEnd& tip, Vec2 t,
 /// The weight at a face of a node beyond it, over that while the crack is shut: the node lies d from the crack's line,
 /// the face has moved away from that by g, both in cells.
 RIVEN_FN double felt(double g, double d) {
-  return d < 1 - least_felt ? std::max(least_felt, 1 - g / (1 - d)) : 1;
+  const double share = d < 1 - least_felt ? 1 - g / (1 - d) : 1;
+  return share > least_felt ? share : least_felt;
 }
 
 template <class Real>

@@ -36,7 +36,8 @@ RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackV
     if (on_grid[p])
       slots_of_surfaces(from.view, pair[p], slot);
     else
-      std::fill(slot[0], slot[0] + 2 * surface_lanes, -1);
+      for (auto& of_side : slot)
+        std::fill(of_side, of_side + surface_lanes, -1);
     for (int side = 0; side < 2; ++side)
       from.put(lanes, static_cast<int>(2 * p + side), on_grid[p] ? pair[p].x[side] : Vec2{}, slot[side]);
   }

@@ -98,7 +98,7 @@ struct NodeSums {
     each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
       for (; first < last; first += exec::lanes) {
         w.weigh(at, first);
-        for (int k = 0; k < std::min(exec::lanes, last - first); ++k) {
+        for (int k = 0; k < exec::lanes && k < last - first; ++k) {
           const int p = first + k, a = I - w.ix[k], b = K - w.iy[k];
           if (static_cast<unsigned>(a) >= Shape::width || static_cast<unsigned>(b) >= Shape::width)
             continue;

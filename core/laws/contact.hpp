@@ -102,7 +102,7 @@ inline constexpr double stiff_phase2 = std::numbers::pi * std::numbers::pi / 4;
 RIVEN_INLINE PairResponse interface_response(double phase2, double u0, double delta, double dt) {
   if (phase2 <= 0)
     return {};
-  const double p = std::sqrt(std::min(phase2, stiff_phase2)), c = std::cos(p), ps = p * std::sin(p);
+  const double p = std::sqrt(phase2 < stiff_phase2 ? phase2 : stiff_phase2), c = std::cos(p), ps = p * std::sin(p);
   return {ps / phase2, (c - ps / phase2) * u0 + ps * delta / dt};
 }
 

@@ -196,7 +196,7 @@ TEST(EffectsOfThePlainStep, HoldNothingElse) {
   EXPECT_TRUE(m.state.loads.position.empty());
   EXPECT_TRUE(m.state.constraints.owners.empty());
   EXPECT_TRUE(m.contact_sums.touched.empty());
-  EXPECT_TRUE(m.bridges.empty());
+  EXPECT_TRUE(m.bridges.of_tip.empty());
   EXPECT_TRUE(m.point_forces.empty());
   for (const Task& t : m.tasks)
     EXPECT_EQ(t.effect, "") << t.label;
