@@ -19,8 +19,7 @@ std::vector<CrackOpening> crack_openings(const Cracks& cracks) {
 double extreme_opening(const Cracks& cracks, int crack) {
   const std::vector<CrackOpening> all = crack_openings(cracks);
   double extreme = 0;
-  for (int i = cracks.start[crack]; i < cracks.start[crack + 1];
-       ++i)
+  for (int i = cracks.start[crack]; i < cracks.start[crack + 1]; ++i)
     if (std::abs(all[static_cast<std::size_t>(i)].normal) > std::abs(extreme))
       extreme = all[static_cast<std::size_t>(i)].normal;
   return extreme;

@@ -57,14 +57,15 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   const long points = at.points;
   FoundMotions found;
   found.surfaces.resize(2 * points);
-  found.all.resize(rules.motion == CrackMotion::center_of_mass ? points : 0);
+  const bool of_all = rules.motion == CrackMotion::center_of_mass;
+  found.all.resize(of_all ? points : 0);
   exec::parallel_tasks(
       space, "move cracks", (points + points_of_task - 1) / points_of_task,
       [=, surfaces = exec::data_to_fill(found.surfaces), all = exec::data_to_fill(found.all)] RIVEN_KERNEL(long task) {
         const long end = std::min(points, (task + 1) * points_of_task);
         for (long first = task * points_of_task; first < end; first += points_of_fit)
           find_surfaces(from, at, first, std::min(end, first + points_of_fit), surfaces);
-        for (long k = task * points_of_task; all && k < end; ++k)
+        for (long k = task * points_of_task; of_all && k < end; ++k)
           all[k] = from.of_all_fields(at.plane[k]);
       });
   move_points(space, found, rules, dt, cracks);

@@ -57,8 +57,7 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
       return nullptr;
     const int other = cracks.crack[point];
     const Vec2 a = cracks.plane[point], b = cracks.plane[point + 1];
-    found = Obstacle{
-        {crack, last, other, point - cracks.start[other], along}, a + along * (b - a), distance};
+    found = Obstacle{{crack, last, other, point - cracks.start[other], along}, a + along * (b - a), distance};
     return &*found;
   };
   const double far = 1.01 * (reach + beside);

@@ -54,9 +54,7 @@ struct Cracks {
                                           ///< the half segments before (x) and after (y) the point
 
   /// The point at an end of a crack, and the one next to it.
-  int end_point(int c, bool last) const {
-    return last ? start[c + 1] - 1 : start[c];
-  }
+  int end_point(int c, bool last) const { return last ? start[c + 1] - 1 : start[c]; }
   int next_to_end(int c, bool last) const { return end_point(c, last) + (last ? -1 : 1); }
 
   bool is_open(int c, bool last) const { return open[2 * c + last] != 0; }
