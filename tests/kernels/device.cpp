@@ -1,5 +1,6 @@
-// What is special to a device: that a step leaves particles and grid there, and that its sort keeps the order of the
-// host's. Everything else is proved by the tests of all spaces (tests/spaces.hpp). Skipped where there is no device.
+// What is special to a device: that a step leaves particles and grid there, also where J is found and cracks grow, and
+// that its sort keeps the order of the host's. Everything else is proved by the tests of all spaces
+// (tests/spaces.hpp). Skipped where there is no device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,6 +47,38 @@ TEST(Device, KeepsWhatAStepNeedsWhereItRuns) {
   EXPECT_LT(static_cast<double>(after.to_host - before.to_host) / steps / particles, sizeof(double));
   EXPECT_LT(static_cast<double>(after.to_device - before.to_device) / steps / particles, sizeof(double));
   EXPECT_GT(after.to_host, before.to_host) << "the watch of the step is read on the host";
+}
+
+/// A plate of 57,600 particles, torn apart so that the crack in its left edge runs.
+Scene plate_with_a_running_crack() {
+  Scene s = empty_scene(1. / 60, {{-0.5, -0.5}, {2.5, 2.5}});
+  s.bodies = {body("plate", Rectangle{{0, 0}, {2, 2}})};
+  s.cracks = {crack("edge", {{0, 1}, {0.5, 1}})};
+  s.growth = GrowthRule{};
+  s.growth->toughness = 1;
+  return s;
+}
+
+TEST(Device, BringsOnlyWhatIsAroundTheTipsOfCracksThatGrow) {
+  if (std::string why; !exec::available(exec::Kind::cuda, &why))
+    GTEST_SKIP() << why;
+  const Scene scene = plate_with_a_running_crack();
+  const exec::Space space(exec::Kind::cuda);
+  Simulation m(scene, space);
+  auto& p = m.state.particles;
+  for (long i = 0; i < p.count(); ++i)
+    p.v[1][i] = p.x[1][i] - 1;
+  for (int n = 0; n < 20; ++n)
+    m.step();
+  const int points = m.state.cracks.points(), steps = 100;
+  const exec::Traffic before = exec::traffic();
+  for (int n = 0; n < steps; ++n)
+    m.step();
+  const exec::Traffic after = exec::traffic();
+  EXPECT_GT(m.state.cracks.points(), points + 5) << "the crack must grow for this to prove anything";
+  const double particles = static_cast<double>(p.count());
+  EXPECT_LT(static_cast<double>(after.to_host - before.to_host) / steps / particles, sizeof(double));
+  EXPECT_LT(static_cast<double>(after.to_device - before.to_device) / steps / particles, sizeof(double));
 }
 
 TEST(Device, SortsAsTheHostDoes) {
