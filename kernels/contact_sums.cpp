@@ -48,8 +48,8 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
       (choice.position && p.x0[0].empty()) || ((choice.volume || choice.position) && p.tiles.cell_start.empty()))
     fail({Exit::internal, "particles lack the arrays that the detection of contact needs", "contact sums", {}, {}, {}});
   const long slots = long{grid.lattice.nodes()} + fields.extra_slots;
-  sums.place.resize(choice.position ? 4 * slots : 0);
-  sums.volume.resize(choice.volume ? slots : 0);
+  sums.place.renew(choice.position ? 4 * slots : 0);
+  sums.volume.renew(choice.volume ? slots : 0);
   sums.known.resize(fields.nodes.size());
   sums.known.zero();
   sums.area.resize(choice.area ? 2 * fields.nodes.size() + fields.third_normals.size() : 0);
