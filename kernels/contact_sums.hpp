@@ -61,7 +61,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
                   const Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks, double thickness,
                   ContactSums& sums);
 
-/// The way to the sums over particles that were asked for.
+/// The way to the sums over particles that were asked for, of which none is read before it is written.
 template <class Real>
 NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattice, const CrackFields& fields,
                          ContactSums& sums) {
@@ -85,8 +85,8 @@ NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattic
           exec::data(p.tiles.cell_start),
           exec::data(fields.fields),
           cells_seen(of.shape, of.domains) + of.drift / lattice.h + 1e-6,
-          sums.place.empty() ? nullptr : exec::data(sums.place),
-          sums.volume.empty() ? nullptr : exec::data(sums.volume),
+          sums.place.empty() ? nullptr : exec::data_to_fill(sums.place),
+          sums.volume.empty() ? nullptr : exec::data_to_fill(sums.volume),
           asked ? exec::data(sums.known) : nullptr};
 }
 
