@@ -49,9 +49,9 @@ TEST(Device, KeepsWhatAStepNeedsWhereItRuns) {
   EXPECT_GT(after.to_host, before.to_host) << "the watch of the step is read on the host";
 }
 
-/// A plate of 57,600 particles, torn apart so that the crack in its left edge runs.
+/// A plate of 102,400 particles, torn apart so that the crack in its left edge runs.
 Scene plate_with_a_running_crack() {
-  Scene s = empty_scene(1. / 60, {{-0.5, -0.5}, {2.5, 2.5}});
+  Scene s = empty_scene(1. / 80, {{-0.5, -0.5}, {2.5, 2.5}});
   s.bodies = {body("plate", Rectangle{{0, 0}, {2, 2}})};
   s.cracks = {crack("edge", {{0, 1}, {0.5, 1}})};
   s.growth = GrowthRule{};
