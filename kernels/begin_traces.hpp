@@ -1,4 +1,4 @@
-// What a trace begins with, on the host: cracks and the tiles around them are few.
+// What a trace begins with that knows nothing.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/crack_fields.hpp"
@@ -8,11 +8,12 @@
 
 namespace riven {
 
-/// Forgets all crossings, after a sort or when room ran out.
-void begin_traces(const Tiles& tiles, long particles, const Lattice& lattice, const Cracks& cracks,
-                  CrackFields& fields);
+inline namespace RIVEN_SIDE {
 
-/// Follows the cracks' points; notes how far they have moved since the last trace.
-void follow_moves(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields);
+/// Forgets all crossings, after a sort or when room ran out.
+void begin_traces(const exec::Space& space, const Tiles& tiles, long particles, const Lattice& lattice,
+                  const Cracks& cracks, CrackFields& fields);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -1,189 +1,177 @@
 #include "kernels/hash_cracks.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
-#include <vector>
 
 #include "core/exec/atomic.hpp"
-#include "core/exec/parallel.hpp"
+#include "core/exec/scan.hpp"
 #include "core/fracture/crack_path.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/cells_around.hpp"
+#include "kernels/segment_bins.hpp"
 
 namespace riven {
 
+inline namespace RIVEN_SIDE {
+
 namespace {
 
-/// Segments, and places, of one task.
-constexpr long segments_of_task = 64, places_of_task = 1024;
+constexpr const char* label = "hash cracks: clear";
 
-/// For lattice place (i, j) the box [i + lower, i + upper] x [j + lower, j + upper], in cells.
-struct Reach {
-  double lower, upper;
-  int border;  ///< places this near to the edge of the lattice are left out
-};
+/// Cells, and tiles, of one task.
+constexpr long some = 512, tiles_of_task = 16;
 
-/// A CSR of the segments whose distance to the box of a place is within the margin.
-struct Bins {
-  exec::Array<int>& index;  ///< [nodes] position in the lists, or -1
-  exec::Array<int>& place;
-  exec::Array<int>& start;
-  exec::Array<int>& segment;
-};
+/// The cracks that particles of a tile may see: those of the cells that they may be in.
+struct CracksOfTile {
+  Lattice lattice;
+  const int *cell_index, *cell_start, *cell_segment, *crack;
 
-/// f(place) for every place whose box meets the segment a-b (in cells).
-template <class F>
-void each_place(Vec2 a, Vec2 b, Reach reach, const Lattice& lattice, const F& f) {
-  const double lower = reach.lower - CrackFields::margin, upper = reach.upper + CrackFields::margin;
-  const auto first = [&](double x) { return std::max(reach.border, static_cast<int>(std::ceil(x - upper))); };
-  const auto last = [&](double x, int n) {
-    return std::min(n - 1 - reach.border, static_cast<int>(std::floor(x - lower)));
-  };
-  const int i0 = first(std::min(a.x, b.x)), i1 = last(std::max(a.x, b.x), lattice.nx);
-  const int j0 = first(std::min(a.y, b.y)), j1 = last(std::max(a.y, b.y), lattice.ny);
-  const Vec2 d = b - a;
-  const double center = (lower + upper) / 2, reach_across = (upper - lower) / 2 * (std::fabs(d.x) + std::fabs(d.y));
-  for (int j = j0; j <= j1; ++j)
-    for (int i = i0; i <= i1; ++i)
-      if (std::fabs(cross(d, Vec2{i + center, j + center} - a)) <= reach_across)
-        f(j * lattice.nx + i);
-}
-
-void fill(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const exec::Array<Vec2>& points,
-          Reach reach, Bins bins) {
-  const long nodes = lattice.nodes(), segments = std::max(0, cracks.points() - 1);
-  const auto places_of = [&, crack = cracks.crack.data(), point = points.data()](long k, const auto& f) {
-    if (crack[k] != crack[k + 1])
-      return;
-    const auto at = [&](long n) { return (point[n] - lattice.origin) * (1 / lattice.h); };
-    const Vec2 a = at(k), b = at(k + 1);
-    each_place(a, b, reach, lattice, f);
-  };
-  bins.index.resize(nodes);
-  std::memset(bins.index.data(), 0xff, static_cast<size_t>(nodes) * sizeof(int));
-  int* index = bins.index.data();
-  exec::launch_some(space, segments, segments_of_task,
-                    [&](long k) { places_of(k, [&](int p) { exec::atomic_add(index[p], 1); }); });
-
-  // index + 1 is now the count of each place
-  const long places = std::count_if(index, index + nodes, [](int count) { return count >= 0; });
-  bins.place.resize(places);
-  bins.start.resize(places + 1);
-  int used = 0, total = 0;
-  for (int p = 0; p < nodes; ++p) {
-    if (index[p] < 0)
-      continue;
-    const int count = index[p] + 1;
-    bins.place[used] = p;
-    bins.start[used] = total;
-    index[p] = used++;
-    total += count;
+  /// f(crack), for most of them once.
+  template <class F>
+  RIVEN_FN void each(int tile, const F& f) const {
+    constexpr int room = 8;
+    int known[room], count = 0, last = -1;
+    const int i0 = tile % lattice.tiles_x() * Lattice::tile, j0 = tile / lattice.tiles_x() * Lattice::tile;
+    for (int j = j0 - 1; j <= j0 + Lattice::tile; ++j)
+      for (int i = i0 - 1; i <= i0 + Lattice::tile; ++i) {
+        const bool inside = i >= 0 && j >= 0 && i < lattice.nx && j < lattice.ny;
+        const int cell = inside ? cell_index[j * lattice.nx + i] : -1;
+        if (cell < 0)
+          continue;
+        for (int s = cell_start[cell]; s < cell_start[cell + 1]; ++s) {
+          const int now = crack[cell_segment[s]];
+          if (now == last)
+            continue;
+          last = now;
+          int k = 0;
+          while (k < count && known[k] != now)
+            ++k;
+          if (k < count)
+            continue;
+          if (count < room)
+            known[count++] = now;
+          f(now);
+        }
+      }
   }
-  bins.start[used] = total;
-  bins.segment.resize(total);
-  exec::Array<int> cursor(used);
-  exec::launch_some(space, segments, segments_of_task, [&](long k) {
-    places_of(k, [&](int p) {
-      const int at = exec::atomic_add(cursor[index[p]], 1);
-      bins.segment[bins.start[index[p]] + at] = static_cast<int>(k);
-    });
-  });
-  int* segment = bins.segment.data();
-  exec::launch_some(space, used, places_of_task,
-                    [&](long u) { std::sort(segment + bins.start[u], segment + bins.start[u + 1]); });
-}
+};
 
 /// Tiles that can reach a marked cell, and the cracks that are seen there.
-void mark_tiles(const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
-  fields.tile_marked.resize(lattice.tiles_x() * lattice.tiles_y());
-  fields.tile_marked.zero();
-  std::vector<std::pair<int, int>> seen;  // tile, crack
-  // a tile's cells mostly see the crack that was noted there last
-  for (long c = 0; c < fields.cells.size(); ++c)
-    each_tile_around(lattice, fields.cells[c], 0, [&](int tile) {
-      int& noted = fields.tile_marked[tile];
-      for (int s = fields.cell_start[c]; s < fields.cell_start[c + 1]; ++s) {
-        const int crack = cracks.crack[fields.cell_segment[s]];
-        if (noted != crack + 1)
-          seen.emplace_back(tile, crack);
-        noted = crack + 1;
-      }
-    });
-  std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  fields.marked_tiles.resize(fields.tile_marked.size());
-  int used = 0;
-  for (int t = 0; t < fields.tile_marked.size(); ++t)
-    if (fields.tile_marked[t]) {
-      fields.marked_tiles[used++] = t;
-      fields.tile_marked[t] = used;
+void mark_tiles(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  const long tiles = long{lattice.tiles_x()} * lattice.tiles_y();
+  fields.tile_marked.renew(tiles);
+  exec::parallel_zero(space, label, fields.tile_marked);
+  int* const marked = exec::data(fields.tile_marked);
+  exec::launch_some(space, fields.cells.size(), some,
+                    [=, cell = exec::data(std::as_const(fields.cells))] RIVEN_KERNEL(long c) {
+                      each_tile_around(lattice, cell[c], 0, [&](int tile) { exec::atomic_set(marked[tile], 1); });
+                    });
+  const auto listed = exec::begin_scan<int>(space, tiles, [=] RIVEN_KERNEL(long t) { return marked[t]; });
+  const int used = listed.total;
+  fields.marked_tiles.renew(used);
+  int* const list = exec::data_to_fill(fields.marked_tiles);
+  exec::end_scan(listed, [=] RIVEN_KERNEL(long t, int before) {
+    if (marked[t]) {
+      list[before] = static_cast<int>(t);
+      marked[t] = before + 1;
     }
-  fields.marked_tiles.resize(used);
-  fields.tile_crack_start.resize(used + 1);
-  fields.tile_crack_start.zero();
-  fields.tile_crack.resize(static_cast<long>(seen.size()));
-  for (size_t k = 0; k < seen.size(); ++k) {
-    ++fields.tile_crack_start[fields.tile_marked[seen[k].first]];
-    fields.tile_crack[static_cast<long>(k)] = seen[k].second;
-  }
-  for (int m = 0; m < used; ++m)
-    fields.tile_crack_start[m + 1] += fields.tile_crack_start[m];
+  });
+
+  const CracksOfTile seen{lattice, exec::data(std::as_const(fields.cell_index)),
+                          exec::data(std::as_const(fields.cell_start)), exec::data(std::as_const(fields.cell_segment)),
+                          exec::data(cracks.crack)};
+  exec::Array<int> counts(used);
+  int* const count = exec::data_to_fill(counts);
+  exec::launch_some(space, used, tiles_of_task, [=] RIVEN_KERNEL(long m) {
+    int n = 0;
+    seen.each(list[m], [&](int) { ++n; });
+    count[m] = n;
+  });
+  const auto cracks_seen = exec::begin_scan<int>(space, used, [=] RIVEN_KERNEL(long m) { return count[m]; });
+  const int total = cracks_seen.total;
+  fields.tile_crack_start.renew(used + 1);
+  fields.tile_crack.renew(total);
+  int *const start = exec::data_to_fill(fields.tile_crack_start), *const crack = exec::data_to_fill(fields.tile_crack);
+  exec::end_scan(cracks_seen, [=] RIVEN_KERNEL(long m, int before) { start[m] = before; });
+  exec::launch(space, 1, [=] RIVEN_KERNEL(long) { start[used] = total; });
+  exec::launch_some(space, used, tiles_of_task, [=] RIVEN_KERNEL(long m) {
+    int at = start[m];
+    seen.each(list[m], [&](int c) { crack[at++] = c; });
+  });
 }
 
-/// Candidate cracks of each node from the segments near it, and the extra slots that they ask for.
-void list_candidates(const Lattice& lattice, const Cracks& cracks, const exec::Array<int>& node,
-                     const exec::Array<int>& start, CrackFields& fields) {
-  const long flagged = node.size();
-  fields.nodes.resize(flagged);
-  fields.normals.resize(flagged);
-  fields.candidate_start.resize(flagged + 1);
-  fields.candidate.resize(fields.node_segment.size());
-  fields.segment_start.resize(fields.node_segment.size() + 1);
-  fields.extra.resize(lattice.nodes());
-  std::memset(fields.extra.data(), 0xff, static_cast<size_t>(lattice.nodes()) * sizeof(int));
-  int total = 0, slots = 0, thirds = 0;
-  for (long f = 0; f < flagged; ++f) {
-    const int first = total;
-    for (int s = start[f]; s < start[f + 1]; ++s) {
-      const int c = cracks.crack[fields.node_segment[s]];
-      if (total != first && fields.candidate[total - 1] == c)
-        continue;
-      fields.segment_start[total] = s;
-      fields.candidate[total++] = c;
-    }
-    NodeCracks& here = fields.nodes[f] = NodeCracks{};
-    here.node = node[f];
-    here.extra = slots;
-    const int seen = total - first;
-    here.sees = seen == 1 ? fields.candidate[first] : seen == 2 ? -1 : -2;
-    here.third = seen > 2 ? thirds++ : -1;
-    fields.candidate_start[f] = first;
-    fields.extra[node[f]] = slots;
-    slots += (1 << std::min(seen, most_held)) - 1;
+/// What nodes ask for, up to one of them.
+struct NodeNeeds {
+  int candidates = 0, slots = 0, thirds = 0;
+  RIVEN_FN NodeNeeds& operator+=(const NodeNeeds& o) {
+    return candidates += o.candidates, slots += o.slots, thirds += o.thirds, *this;
   }
-  fields.candidate_start[flagged] = total;
-  fields.segment_start[total] = start[flagged];
-  fields.candidate.resize(total);
-  fields.segment_start.resize(total + 1);
-  fields.extra_slots = slots;
-  fields.third_normals.resize(thirds);
+};
+
+/// The cracks whose segments are near to a node, as fill_bins() lists these.
+struct CracksOfNode {
+  const int *start, *segment, *crack;
+
+  /// f(crack, position of its first segment in the list) for the cracks near to node f, in ascending order.
+  template <class F>
+  RIVEN_FN void each(long node, const F& f) const {
+    int last = -1;
+    for (int s = start[node]; s < start[node + 1]; ++s)
+      if (const int c = crack[segment[s]]; c != last) {
+        f(c, s);
+        last = c;
+      }
+  }
+  RIVEN_FN NodeNeeds needs(long node) const {
+    int n = 0;
+    each(node, [&](int, int) { ++n; });
+    return {n, (1 << (n < most_held ? n : +most_held)) - 1, n > 2};
+  }
+};
+
+/// Candidate cracks of each node from the segments near it, and the extra slots that they ask for.
+void list_candidates(const exec::Space& space, const Lattice& lattice, const Cracks& cracks,
+                     const exec::Array<int>& nodes, const exec::Array<int>& starts, CrackFields& fields) {
+  const long flagged = nodes.size();
+  const CracksOfNode near{exec::data(starts), exec::data(std::as_const(fields.node_segment)), exec::data(cracks.crack)};
+  const auto needs = exec::begin_scan<NodeNeeds>(space, flagged, [=] RIVEN_KERNEL(long f) { return near.needs(f); });
+  const NodeNeeds all = needs.total;
+  const int segments = static_cast<int>(fields.node_segment.size());
+  fields.nodes.renew(flagged);
+  fields.candidate_start.renew(flagged + 1);
+  fields.candidate.renew(all.candidates);
+  fields.segment_start.renew(all.candidates + 1);
+  fill_with_none(space, fields.extra, lattice.nodes());
+  NodeCracks* const node = exec::data_to_fill(fields.nodes);
+  int *const candidate_start = exec::data_to_fill(fields.candidate_start),
+             *const candidate = exec::data_to_fill(fields.candidate),
+             *const segment_start = exec::data_to_fill(fields.segment_start), *const extra = exec::data(fields.extra);
+  exec::end_scan(needs, [=, number = exec::data(nodes)] RIVEN_KERNEL(long f, const NodeNeeds& before) {
+    int at = before.candidates;
+    near.each(f, [&](int crack, int first_segment) {
+      segment_start[at] = first_segment;
+      candidate[at++] = crack;
+    });
+    const int seen = at - before.candidates;
+    NodeCracks here;
+    here.node = number[f];
+    here.extra = before.slots;
+    here.sees = seen == 1 ? candidate[before.candidates] : seen == 2 ? -1 : -2;
+    here.third = seen > 2 ? before.thirds : -1;
+    node[f] = here;
+    candidate_start[f] = before.candidates;
+    extra[here.node] = before.slots;
+  });
+  exec::launch(space, 1, [=] RIVEN_KERNEL(long) {
+    candidate_start[flagged] = all.candidates;
+    segment_start[all.candidates] = segments;
+  });
+  fields.extra_slots = all.slots;
+  fields.normals.renew(flagged);
+  fields.third_normals.renew(all.thirds);
 }
 
 }  // namespace
-
-bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
-  const long points = cracks.points();
-  if (fields.cell_index.size() != lattice.nodes() || fields.hashed.size() != points)
-    return true;
-  const double limit = 0.99 * CrackFields::margin * lattice.h;  // less a little for rounding
-  const auto moved = [&, then = fields.hashed.data()](long k) {
-    const Vec2 now = seen_point(cracks, static_cast<int>(k), lattice.h);
-    return long{std::fabs(now.x - then[k].x) > limit || std::fabs(now.y - then[k].y) > limit};
-  };
-  return exec::parallel_reduce<long>(space, "hash cracks", points, moved) > 0;
-}
 
 template <class Shape>
 void list_segments(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
@@ -191,20 +179,20 @@ void list_segments(const exec::Space& space, const Lattice& lattice, const Crack
   // with every shape function; those that end at one node start at most one and a half cells away from it
   constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
   constexpr Reach node{-1.5, 1.5, 0};
-  fill(space, lattice, cracks, fields.hashed, cell,
-       {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
-  mark_tiles(lattice, cracks, fields);
+  fill_bins(space, lattice, cracks, fields.hashed, cell,
+            {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
+  mark_tiles(space, lattice, cracks, fields);
   exec::Array<int> flagged, start;
-  fill(space, lattice, cracks, fields.hashed, node, {fields.node_index, flagged, start, fields.node_segment});
-  list_candidates(lattice, cracks, flagged, start, fields);
+  fill_bins(space, lattice, cracks, fields.hashed, node, {fields.node_index, flagged, start, fields.node_segment});
+  list_candidates(space, lattice, cracks, flagged, start, fields);
 
-  fields.tally.resize(2 * fields.candidate.size());
-  fields.verdict.resize(fields.tally.size());
-  fields.held.resize(fields.nodes.size());
-  fields.held.zero();
-  fields.recount.resize(fields.nodes.size());
-  fields.clearance.resize(fields.nodes.size());
-  fields.follow_at.resize(fields.nodes.size());
+  fields.tally.renew(2 * fields.candidate.size());
+  fields.verdict.renew(fields.tally.size());
+  fields.held.renew(fields.nodes.size());
+  exec::parallel_zero(space, label, fields.held);
+  fields.recount.renew(fields.nodes.size());
+  fields.clearance.renew(fields.nodes.size());
+  fields.follow_at.renew(fields.nodes.size());
   fields.serial = cracks.serial;
   fields.kind.resize(cracks.points());
   for (PointKind& kind : fields.kind)
@@ -233,5 +221,7 @@ RIVEN_HASH(Linear)
 RIVEN_HASH(UGimp)
 RIVEN_HASH(BSpline)
 #undef RIVEN_HASH
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -15,6 +15,8 @@ namespace riven {
 /// True when cracks have grown, or some crack point has moved by more than the margin, since the last hash.
 bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const CrackFields& fields);
 
+inline namespace RIVEN_SIDE {
+
 /// Notes where the crack points are, and remakes all lists of `fields` down to `extra_slots`. Shape: Linear, UGimp or
 /// BSpline, as the particles use it. Work in proportion to the segments, but for sweeps over the node numbers.
 template <class Shape>
@@ -24,5 +26,7 @@ void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks&
 /// where the cracks are by now.
 template <class Shape>
 void list_segments(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields);
+
+}  // namespace RIVEN_SIDE
 
 }  // namespace riven

@@ -17,7 +17,9 @@ namespace riven {
 namespace on_device {
 template <class Real>
 std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan&);
-}
+template <class Real>
+void tally(const exec::Space&, const Plan&, State<Real, 2>&);
+}  // namespace on_device
 #endif
 
 namespace {
@@ -30,6 +32,16 @@ std::vector<TaskOf<Real>> tasks_for(const Scene& scene, const Plan& plan, [[mayb
     return on_device::assemble_step<Real>(scene, plan);
 #endif
   return assemble_step<Real>(scene, plan);
+}
+
+/// tally() on the side that the space is on.
+template <class Real>
+void tally_there(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+#if defined(RIVEN_DEVICE)
+  if (space.on_device())
+    return on_device::tally(space, plan, s);
+#endif
+  tally(space, plan, s);
 }
 
 }  // namespace
@@ -63,20 +75,21 @@ void SimulationOf<Real>::begin() {
     make_loads(scene, state);
   contact_sums.keep_touched = plan.contact && (plan.fracture || plan.contact_waits);
   sort_particles(space, plan, state);
-  tally(space, plan, state);
+  tally_there(space, plan, state);
   watch_figures(*this);
 }
 
 template <class Real>
 void SimulationOf<Real>::step() {
+  exec::Clock clock(space.on_device());
   for (Task& t : tasks) {
     if (t.due && !t.due(*this))
       continue;
-    const double start = exec::Stopwatch::now();
+    const exec::Lap timed(clock, t.seconds);
     t.run(*this);
-    t.seconds += exec::Stopwatch::now() - start;
     ++t.calls;
   }
+  clock.settle();
   state.clock.time += state.clock.dt;
   ++state.clock.step;
   check_particles(state);
@@ -84,7 +97,7 @@ void SimulationOf<Real>::step() {
 
 template <class Real>
 void SimulationOf<Real>::take_stock() {
-  tally(space, plan, state);
+  tally_there(space, plan, state);
   watch_figures(*this);
   check_energy(plan, state);
 }

@@ -140,7 +140,7 @@ void scatter_tiles(const exec::Space& space, const char* label, ScatterKind kind
   const bool ordered = kind == ScatterKind::ordered;
   const int* list = exec::data(ordered ? run.tiles.by_colour : run.tiles.filled);
   const detail::TileList all{list, exec::data(run.tiles.start), run.extra, ordered};
-  const exec::DeviceStopwatch timed(space, label);
+  const exec::Stopwatch timed(space.timers(), label);
   for (int colour = 0; colour < (ordered ? 4 : 1); ++colour) {
     const int* const first = &run.tiles.colour_start[colour];
     detail::TileList tiles = all;

@@ -6,6 +6,7 @@
 #include "core/exec/parallel.hpp"
 #include "kernels/begin_traces.hpp"
 #include "kernels/carry_traces.hpp"
+#include "kernels/follow_moves.hpp"
 #include "kernels/trace_tiles.hpp"
 #include "kernels/turned.hpp"
 
@@ -110,7 +111,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
   const bool afresh = fields.order != particles.tiles.order || fields.fields.size() != particles.count();
   ++fields.traces;
   if (afresh)
-    begin_traces(particles.tiles, particles.count(), lattice, cracks, fields);
+    begin_traces(space, particles.tiles, particles.count(), lattice, cracks, fields);
   else if (fields.relisted)
     carry_traces(space, particles.tiles, lattice, cracks, fields);
   fields.order = particles.tiles.order;
@@ -142,7 +143,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
     if (used <= fields.records.size())
       return;
     fields.records.resize(used + used / 2);
-    begin_traces(particles.tiles, particles.count(), lattice, cracks, fields);
+    begin_traces(space, particles.tiles, particles.count(), lattice, cracks, fields);
   }
 }
 

@@ -49,25 +49,40 @@ class Array {
   void resize(long n) {
     if (n == size_ && data_)
       return;
+    const long more = capacity_ + capacity_ / 2, room = n <= capacity_ ? capacity_ : n > more ? n : more;
+    if (mirror_.device_holds()) {
+      if (room > capacity_)
+        take_room_for(room);
+      mirror_.device_resizes(bytes_held(), static_cast<size_t>(n) * sizeof(T), bytes_of(room));
+      size_ = n;
+      return;
+    }
     written_here();
-    if (n > capacity_ || !data_)
-      move_to_room_for(n > capacity_ + capacity_ / 2 ? n : capacity_ + capacity_ / 2);
+    if (room > capacity_ || !data_)
+      move_to_room_for(room);
     else if (n > size_)
       std::memset(static_cast<void*>(data_ + size_), 0, static_cast<size_t>(n - size_) * sizeof(T));
     size_ = n;
   }
   /// Room for n items and no more, where there is not as much: for large arrays that grow by little.
   void reserve(long n) {
-    if (n > capacity_) {
-      written_here();
-      move_to_room_for(n);
+    if (n <= capacity_)
+      return;
+    if (mirror_.device_holds()) {
+      take_room_for(n);
+      mirror_.device_resizes(bytes_held(), bytes_held(), bytes_of(n));
+      return;
     }
+    written_here();
+    move_to_room_for(n);
   }
   void clear() { resize(0); }
   /// New size, for items that are all written before they are read.
   void renew(long n) {
     mirror_.drop();
-    resize(n);
+    if (n > capacity_ || !data_)
+      resize(n);
+    size_ = n;
   }
   void zero() {
     mirror_.drop();
@@ -118,19 +133,27 @@ class Array {
   void read_here() const { mirror_.host_reads(data_, bytes_held()); }
   void written_here() { mirror_.host_writes(data_, bytes_held()); }
 
-  /// The items that there are stay, what is behind them is zero.
-  void move_to_room_for(long items) {
-    const size_t bytes = bytes_of(items);
-    T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes));
+  static T* memory_for(long items) {
+    T* fresh = static_cast<T*>(std::aligned_alloc(64, bytes_of(items)));
     if (!fresh)
       throw std::bad_alloc();
-    const size_t keep = static_cast<size_t>(size_) * sizeof(T);
-    if (size_)
-      std::memcpy(static_cast<void*>(fresh), data_, keep);
-    std::memset(reinterpret_cast<char*>(fresh) + keep, 0, bytes - keep);
+    return fresh;
+  }
+  void take(T* fresh, long items) {
     std::free(data_);
     data_ = fresh;
     capacity_ = items;
+  }
+  /// Nothing stays.
+  void take_room_for(long items) { take(memory_for(items), items); }
+  /// The items that there are stay, what is behind them is zero.
+  void move_to_room_for(long items) {
+    T* fresh = memory_for(items);
+    const size_t keep = bytes_held();
+    if (size_)
+      std::memcpy(static_cast<void*>(fresh), data_, keep);
+    std::memset(reinterpret_cast<char*>(fresh) + keep, 0, bytes_of(items) - keep);
+    take(fresh, items);
   }
 
   T* data_ = nullptr;

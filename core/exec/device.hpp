@@ -26,7 +26,12 @@ void to_host(void* here, const void* there, size_t bytes);
 /// `count` of [first, last) and then, count + 1 of them, where each begins among all of their `items`.
 void gather(void* here, const void* there, const void* ranges, long count, long items, size_t item);
 void zero(void* there, size_t bytes);
-/// Waits until the device has done all that it was asked for.
-void wait();
+/// From one place on the device to another, which do not overlap.
+void copy(void* to, const void* from, size_t bytes);
+
+/// A moment of the device's own clock, when it has done all that it was asked for before. Null if it has failed.
+void* mark() noexcept;
+/// Seconds from one mark to a later one; waits for that. Ends both.
+double seconds_between(void* first, void* last);
 
 }  // namespace riven::exec::device

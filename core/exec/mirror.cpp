@@ -1,5 +1,6 @@
 #include "core/exec/mirror.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <mutex>
 
@@ -87,6 +88,21 @@ void Mirror::make_room(size_t room) {
   there_ = device::allocate(room);
   device::zero(there_, room);  // the padding behind the items
   room_ = room;
+}
+
+void Mirror::device_resizes(size_t before, size_t after, size_t room) {
+  end_parts();
+  if (room > room_) {
+    void* const fresh = device::allocate(room);
+    const size_t keep = std::min(before, after);
+    device::copy(fresh, there_, keep);
+    device::zero(static_cast<char*>(fresh) + keep, room - keep);
+    device::release(there_);
+    there_ = fresh;
+    room_ = room;
+  } else if (after > before) {
+    device::zero(static_cast<char*>(there_) + before, after - before);
+  }
 }
 
 void* Mirror::device_reads(const void* here, size_t bytes, size_t room) {

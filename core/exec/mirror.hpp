@@ -70,6 +70,11 @@ class Mirror {
   /// The same where the device is about to write all that there is.
   void* device_overwrites(void* here, size_t bytes, size_t room);
 
+  /// Whether only the device has the newest items.
+  bool device_holds() const { return newer_ == Newer::device || newer_ == Newer::device_but_parts; }
+  /// Then: keeps the first of `before` bytes there, of which there are to be `after`; new ones are zero.
+  void device_resizes(size_t before, size_t after, size_t room);
+
   /// What is in the ranges is the same on the host until end_parts(). False if all of it is, anyway.
   bool host_reads_parts(void* here, size_t item, const RangeList& ranges);
   void end_parts() {
@@ -104,6 +109,8 @@ class RangeList {
 class Mirror {
  public:
   void swap(Mirror&) noexcept {}
+  bool device_holds() const { return false; }
+  void device_resizes(size_t, size_t, size_t) {}
   bool host_reads_parts(void*, size_t, const RangeList&) { return false; }
   void end_parts() {}
   void drop() {}

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <execution>
 #include <vector>
 
@@ -139,13 +140,23 @@ void scatter_for(const Space& space, const char* label, bool, long n, const F& f
     f(i);
 }
 
-/// Zeros all items of some arrays, each cut into as many pieces: those over the same things into the same ones.
+namespace detail {
+
+template <class T>
+void zero(T* first, T* last) {
+  if (first < last)
+    std::memset(static_cast<void*>(first), 0, static_cast<size_t>(last - first) * sizeof(T));
+}
+
+}  // namespace detail
+
+/// Zeros all bytes of some arrays, each cut into as many pieces: those over the same things into the same ones.
 template <class... Arrays>
 void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
   constexpr long piece = 1L << 19;  // bytes
   const long pieces = ((arrays.size() * long{sizeof(*arrays.data())}) + ...) / piece + 1;
   parallel_tasks(space, label, pieces, [=, ... all = arrays.data(), ... size = arrays.size()](long c) {
-    (std::fill(all + size * c / pieces, all + size * (c + 1) / pieces, 0), ...);
+    (detail::zero(all + size * c / pieces, all + size * (c + 1) / pieces), ...);
   });
 }
 

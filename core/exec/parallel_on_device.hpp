@@ -46,21 +46,9 @@ void launch_teams(const Space&, long n, int threads, size_t shared, const F& f) 
     detail::launch_teams(n, threads, shared, f);
 }
 
-/// Times what was launched while it lives, to the end.
-class DeviceStopwatch {
- public:
-  DeviceStopwatch(const Space& space, const char* label) : watch_(space.timers(), label) {}
-  ~DeviceStopwatch() { device::wait(); }
-  DeviceStopwatch(const DeviceStopwatch&) = delete;
-  DeviceStopwatch& operator=(const DeviceStopwatch&) = delete;
-
- private:
-  Stopwatch watch_;
-};
-
 template <class F>
 void parallel_for(const Space& space, const char* label, long n, const F& f) {
-  const DeviceStopwatch timed(space, label);
+  const Stopwatch timed(space.timers(), label);
   launch(space, n, f);
 }
 
@@ -71,7 +59,7 @@ void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
 
 template <class F>
 void scatter_for(const Space& space, const char* label, bool in_order, long n, const F& f) {
-  const DeviceStopwatch timed(space, label);
+  const Stopwatch timed(space.timers(), label);
   if (!in_order)
     return launch(space, n, f);
   launch(space, 1, [=] RIVEN_KERNEL(long) {
@@ -82,7 +70,7 @@ void scatter_for(const Space& space, const char* label, bool in_order, long n, c
 
 template <class F>
 void parallel_teams(const Space& space, const char* label, long n, int threads, size_t shared, const F& f) {
-  const DeviceStopwatch timed(space, label);
+  const Stopwatch timed(space.timers(), label);
   launch_teams(space, n, threads, shared, f);
 }
 
@@ -104,7 +92,7 @@ void zero(Array<T>& array) {
 
 template <class... Arrays>
 void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
-  const DeviceStopwatch timed(space, label);
+  const Stopwatch timed(space.timers(), label);
   (detail::zero(arrays), ...);
 }
 

@@ -9,7 +9,8 @@
 
 namespace riven::exec {
 
-Space::Space(Kind kind, int threads) : kind_(kind), threads_(kind == Kind::serial ? 1 : std::max(1, threads)) {
+Space::Space(Kind kind, int threads)
+    : kind_(kind), threads_(kind == Kind::serial ? 1 : std::max(1, threads)), timers_(kind == Kind::cuda) {
   if (kind_ == Kind::stdpar)
     arena_ = std::make_unique<tbb::task_arena>(threads_);
   if (std::string why_not; !available(kind, &why_not))

@@ -101,13 +101,14 @@ enum class PointKind : std::uint8_t { joint, end, open_end };
 /// keep in terms of these lists.
 struct CrackLists {
   // A cell carries the number of the node that the shape function sorts its particles by.
-  exec::Array<int> cell_index;        ///< [nodes] index into `cells`, or -1
-  exec::Array<int> cells;             ///< [marked] cells that see a segment, ascending
-  exec::Array<int> cell_start;        ///< [marked + 1] CSR of the segments seen by each such cell
-  exec::Array<int> cell_segment;      ///< first point of each seen segment, ascending within a cell
-  exec::Array<int> tile_marked;       ///< [tiles] 1 + index into `marked_tiles`, or 0
-  exec::Array<int> marked_tiles;      ///< tiles whose particles may see a crack, ascending
-  exec::Array<int> tile_crack_start;  ///< [marked tiles + 1] CSR of the cracks that such particles may see
+  exec::Array<int> cell_index;    ///< [nodes] index into `cells`, or -1
+  exec::Array<int> cells;         ///< [marked] cells that see a segment, ascending
+  exec::Array<int> cell_start;    ///< [marked + 1] CSR of the segments seen by each such cell
+  exec::Array<int> cell_segment;  ///< first point of each seen segment, ascending within a cell
+  exec::Array<int> tile_marked;   ///< [tiles] 1 + index into `marked_tiles`, or 0
+  exec::Array<int> marked_tiles;  ///< tiles whose particles may see a crack, ascending
+  exec::Array<int>
+      tile_crack_start;  ///< [marked tiles + 1] CSR of the cracks that such particles may see, some more than once
   exec::Array<int> tile_crack;
   exec::Array<int> node_index;       ///< [nodes] index into `nodes`, or -1
   exec::Array<NodeCracks> nodes;     ///< [flagged] every node that may see a crack, in ascending node number

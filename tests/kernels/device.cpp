@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "core/exec/mirror.hpp"
+#include "core/exec/timers.hpp"
 #include "kernels/simulation.hpp"
 #include "tests/physics/scenes.hpp"
 
@@ -47,6 +49,63 @@ TEST(Device, KeepsWhatAStepNeedsWhereItRuns) {
   EXPECT_LT(static_cast<double>(after.to_host - before.to_host) / steps / particles, sizeof(double));
   EXPECT_LT(static_cast<double>(after.to_device - before.to_device) / steps / particles, sizeof(double));
   EXPECT_GT(after.to_host, before.to_host) << "the watch of the step is read on the host";
+}
+
+TEST(Device, TimesItsTasksAndKernelsByItsOwnClock) {
+  if (std::string why; !exec::available(exec::Kind::cuda, &why))
+    GTEST_SKIP() << why;
+  const Scene scene = flying_block();
+  const exec::Space space(exec::Kind::cuda);
+  Simulation m(scene, space);
+  const auto launched = [&] {
+    double sum = 0;
+    for (const exec::Timer& t : space.timers().rows())
+      sum += t.seconds;
+    return sum;
+  };
+  const double before = launched(), start = exec::Stopwatch::now();
+  for (int n = 0; n < 20; ++n)
+    m.step();
+  const double whole = exec::Stopwatch::now() - start, kernels = launched() - before;
+  double tasks = 0;
+  for (const Simulation::Task& t : m.tasks)
+    tasks += t.seconds;
+  EXPECT_GT(kernels, 0);
+  EXPECT_LT(kernels, tasks);
+  EXPECT_LT(tasks, whole);
+  EXPECT_GT(tasks, 0.5 * whole) << "a step does little else";
+}
+
+template <class T>
+std::vector<T> items(const exec::Array<T>& a) {
+  return {a.begin(), a.end()};
+}
+
+/// Two cracks that cross and two more next to them, so that nodes see one, two and more.
+TEST(Device, ListsTheSegmentsThatTheHostLists) {
+  if (std::string why; !exec::available(exec::Kind::cuda, &why))
+    GTEST_SKIP() << why;
+  Scene scene = empty_scene(1. / 40, {{-0.5, -0.5}, {2.5, 2.5}});
+  scene.bodies = {body("plate", Rectangle{{0, 0}, {2, 2}})};
+  scene.cracks = {crack("a", {{0.3, 1.01}, {1.7, 1.02}}), crack("b", {{1.01, 0.2}, {1.03, 1.8}}),
+                  crack("c", {{0.4, 0.45}, {1.6, 1.62}}), crack("d", {{0.1, 0.1}, {0.2, 0.3}})};
+  const exec::Space host(exec::Kind::serial), there(exec::Kind::cuda);
+  Simulation one(scene, host), other(scene, there);
+  one.step();
+  other.step();
+  const CrackFields &a = one.state.fields, &b = other.state.fields;
+  for (const auto list :
+       {&CrackLists::cell_index, &CrackLists::cells, &CrackLists::cell_start, &CrackLists::cell_segment,
+        &CrackLists::tile_marked, &CrackLists::marked_tiles, &CrackLists::tile_crack_start, &CrackLists::tile_crack,
+        &CrackLists::node_index, &CrackLists::candidate_start, &CrackLists::candidate, &CrackLists::segment_start,
+        &CrackLists::node_segment}) {
+    EXPECT_FALSE((a.*list).empty());
+    EXPECT_EQ(items(a.*list), items(b.*list));
+  }
+  EXPECT_EQ(items(a.extra), items(b.extra));
+  EXPECT_EQ(a.extra_slots, b.extra_slots);
+  EXPECT_EQ(a.third_normals.size(), b.third_normals.size());
+  EXPECT_FALSE(a.third_normals.empty());
 }
 
 /// A plate of 102,400 particles, torn apart so that the crack in its left edge runs.

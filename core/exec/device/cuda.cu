@@ -1,5 +1,6 @@
 #include <new>
 #include <string>
+#include <vector>
 
 #include "core/exec/device.hpp"
 #include "core/exec/device/check_cuda.hpp"
@@ -86,8 +87,35 @@ void zero(void* there, size_t bytes) {
     check(cudaMemsetAsync(there, 0, bytes), "zero");
 }
 
-void wait() {
-  check(cudaDeviceSynchronize(), "wait");
+void copy(void* to, const void* from, size_t bytes) {
+  if (bytes)
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy on the device");
+}
+
+namespace {
+
+std::vector<cudaEvent_t> spare;  ///< marks that have ended; making one takes longer than setting it
+
+}  // namespace
+
+void* mark() noexcept {
+  cudaEvent_t event = nullptr;
+  if (!spare.empty()) {
+    event = spare.back();
+    spare.pop_back();
+  } else if (cudaEventCreate(&event) != cudaSuccess) {
+    return nullptr;
+  }
+  return cudaEventRecord(event) == cudaSuccess ? event : nullptr;
+}
+
+double seconds_between(void* first, void* last) {
+  const cudaEvent_t begin = static_cast<cudaEvent_t>(first), end = static_cast<cudaEvent_t>(last);
+  float milliseconds = 0;
+  check(cudaEventSynchronize(end), "wait");
+  check(cudaEventElapsedTime(&milliseconds, begin, end), "time");
+  spare.insert(spare.end(), {begin, end});
+  return 1e-3 * static_cast<double>(milliseconds);
 }
 
 }  // namespace riven::exec::device

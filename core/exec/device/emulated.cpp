@@ -2,9 +2,11 @@
 // here has been through the same kernels, copies and teams as on a GPU; races and alignment are not seen.
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 
 #include "core/exec/device.hpp"
+#include "core/exec/timers.hpp"
 
 namespace riven::exec::device {
 
@@ -44,6 +46,17 @@ void zero(void* there, size_t bytes) {
   std::memset(there, 0, bytes);
 }
 
-void wait() {}
+void copy(void* to, const void* from, size_t bytes) {
+  std::memcpy(to, from, bytes);
+}
+
+void* mark() noexcept {
+  return new double(Stopwatch::now());
+}
+
+double seconds_between(void* first, void* last) {
+  const std::unique_ptr<double> begin(static_cast<double*>(first)), end(static_cast<double*>(last));
+  return *end - *begin;
+}
 
 }  // namespace riven::exec::device
