@@ -1,19 +1,31 @@
 #!/usr/bin/env bash
-# Tests and measures the CUDA space on the GPU of this machine: ./perf/gpu.sh [tests|sanitizer|throughput]...
-# All three without arguments. Needs nvcc, compute-sanitizer and the packages of packages.txt.
+# Tests and measures the CUDA space on the GPU of this machine: ./perf/gpu.sh [PART]...
+# Parts: tests, physics, stability, sanitizer, throughput, large, cracks; all without arguments. Needs nvcc,
+# compute-sanitizer and the packages of packages.txt; `large` 64 GiB of memory.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/cuda
 cmake --preset cuda >/dev/null
-cmake --build "$build" -j "$(nproc)" --target riven riven-perf test_core test_kernels test_physics
+cmake --build "$build" -j "$(nproc)" --target riven riven-perf \
+  test_core test_kernels test_physics test_io test_stability
 
-for part in ${*:-tests sanitizer throughput}; do
+# million particle-steps per second, what share of a copy's bandwidth that is, and the share of each kernel by events
+measure() {
+  nvidia-smi --query-gpu=name,memory.total --format=csv,noheader
+  "$build/riven-perf" throughput --threads "$(nproc)" --only "$1"
+}
+
+for part in ${*:-tests physics stability sanitizer throughput large cracks}; do
   case $part in
-    tests)  # every space, the device's among them; over long runs, too
+    tests)  # what compares spaces, the device's among them, over long runs, too; and what else is quick, there
       "$build/tests/test_core"
       "$build/tests/test_kernels"
       "$build/tests/test_physics" --gtest_filter='Spaces.*' --gtest_also_run_disabled_tests
+      RIVEN_TEST_EXEC=cuda "$build/tests/test_kernels"
+      RIVEN_TEST_EXEC=cuda "$build/tests/test_io"
       ;;
+    physics) RIVEN_TEST_EXEC=cuda "$build/tests/test_physics" ;;
+    stability) RIVEN_TEST_EXEC=cuda "$build/tests/test_stability" ;;
     sanitizer)  # accesses out of bounds, and threads of a team that do not wait for each other
       for tool in memcheck racecheck; do
         compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_kernels" --gtest_filter='Device.*'
@@ -21,12 +33,11 @@ for part in ${*:-tests sanitizer throughput}; do
           --gtest_filter='Spaces.AgreeOnAPlateWithGrowingCracks'
       done
       ;;
-    throughput)  # million particle-steps per second beside the processor's
-      nvidia-smi --query-gpu=name,memory.total --format=csv,noheader
-      "$build/riven-perf" throughput --only device,block
-      ;;
+    throughput) measure device,block ;;  # 1, 4 and 16 million particles, and the processor's rate
+    large) measure device-large ;;       # 64 million
+    cracks) measure device-cracks ;;     # 200 cracks among 16 million
     *)
-      echo "unknown part '$part': tests, sanitizer or throughput" >&2
+      echo "unknown part '$part': tests, physics, stability, sanitizer, throughput, large or cracks" >&2
       exit 2
       ;;
   esac

@@ -61,6 +61,13 @@ class RunnerOf final : public Runner {
     return list;
   }
 
+  std::vector<TaskRecord> kernels() const override {
+    std::vector<TaskRecord> list;
+    for (const exec::Timer& t : space_.timers().rows())
+      list.push_back({t.label, "", t.seconds});
+    return list;
+  }
+
   Standing standing() override {
     tally(space_, m_.plan, m_.state);
     Standing s;

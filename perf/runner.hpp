@@ -43,6 +43,8 @@ class Runner {
   virtual long particles() const = 0;
   virtual int threads() const = 0;
   virtual std::vector<TaskRecord> tasks() const = 0;
+  /// What has been launched, by its own label, in order of first use; what tasks do around it is not in it.
+  virtual std::vector<TaskRecord> kernels() const = 0;
   virtual long contacts() const = 0;  ///< pairs of fields that touched after the update, so far
   virtual long crack_points() const = 0;
   virtual Standing standing() = 0;

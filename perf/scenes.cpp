@@ -111,8 +111,9 @@ Scene sent_plate(double cell) {
   return s;
 }
 
-Scene many_plate(double edge) {
+Scene many_plate(double edge, double cell) {
   Scene s = shipped("many_cracks.toml");
+  s.cell = cell;
   const Rectangle whole = bounds(s.bodies[0].region);
   const Vec2 margin = whole.lower - s.grid.lower, upper = whole.lower + Vec2{edge, edge};
   s.bodies[0].region = Rectangle{whole.lower, upper};

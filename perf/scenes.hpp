@@ -32,8 +32,9 @@ Entrant pulled(const std::string& name, const Scene& plate);
 /// would overlap without contact.
 Scene sent_plate(double cell);
 
-/// The lower left corner, of `edge` x `edge`, of the shipped plate with 200 cracks, with the cracks that lie in it.
-Scene many_plate(double edge);
+/// The lower left corner, of `edge` x `edge`, of the shipped plate with 200 cracks, with the cracks that lie in it; its
+/// own cells unless said.
+Scene many_plate(double edge, double cell = 0.5e-3);
 
 /// The shipped plate with ten cracks, pulled so fast that all of them grow a few hundred steps later.
 Scene growing_plate(double cell);

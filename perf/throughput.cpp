@@ -21,7 +21,7 @@ class Turns {
 
   void warm_up(int steps) { runner_->run(steps); }
   void take_turn(int steps) {
-    const std::vector<TaskRecord> before = runner_->tasks();
+    const std::vector<TaskRecord> before = runner_->tasks(), launched = runner_->kernels();
     const long touched = runner_->contacts(), points = runner_->crack_points();
     const double start = exec::Stopwatch::now();
     runner_->run(steps);
@@ -29,6 +29,7 @@ class Turns {
     const std::vector<TaskRecord> after = runner_->tasks();
     for (size_t t = 0; t < before.size(); ++t)
       task_[t].push_back((after[t].seconds - before[t].seconds) / steps);
+    count_kernels(launched, runner_->kernels());
     contacts_ += runner_->contacts() - touched;
     grown_ += runner_->crack_points() - points;
     steps_ += steps;
@@ -46,6 +47,9 @@ class Turns {
     const std::vector<TaskRecord> tasks = runner_->tasks();
     for (size_t t = 0; t < task_.size(); ++t)
       r.tasks.push_back({tasks[t].label, tasks[t].effect, 1e9 * median(task_[t]) / static_cast<double>(r.particles)});
+    for (const TaskRecord& k : kernels_)
+      r.kernels.push_back({k.label, k.effect, 1e9 * k.seconds / static_cast<double>(r.particles * r.steps)});
+    r.precision = runner_->entrant().scene.precision;
     r.particle_bytes = now.particle_bytes;
     r.other_bytes = now.other_bytes;
     r.contacts = contacts_;
@@ -56,7 +60,17 @@ class Turns {
   }
 
  private:
+  /// `before`: the first of `after`, as they were.
+  void count_kernels(const std::vector<TaskRecord>& before, std::vector<TaskRecord> after) {
+    for (size_t k = 0; k < before.size(); ++k)
+      after[k].seconds -= before[k].seconds;
+    for (size_t k = 0; k < kernels_.size(); ++k)
+      after[k].seconds += kernels_[k].seconds;
+    kernels_ = std::move(after);
+  }
+
   std::unique_ptr<Runner> runner_;
+  std::vector<TaskRecord> kernels_;  ///< in all turns
   std::vector<double> seconds_;
   std::vector<std::vector<double>> task_;  ///< [tasks][turns] seconds per step
   long contacts_ = 0, grown_ = 0, steps_ = 0;
@@ -101,6 +115,11 @@ Shares bound_shares(const Result& result, const std::vector<MachineRates>& rates
   const Bounds least = step_bounds(result, rates);
   const double rate = result.best_rate();
   return {rate * least.arithmetic, rate * least.memory, rate * least.least_time()};
+}
+
+double achieved_bandwidth(const Result& result) {
+  return result.best_rate() *
+         (result.precision == Precision::as_float ? bytes_per_particle_step_in_float : bytes_per_particle_step);
 }
 
 Overhead crack_overhead(const Result& result, const std::vector<Result>& all) {

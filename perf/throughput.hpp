@@ -18,6 +18,10 @@ constexpr double flops_per_particle_step = 660;
 /// particle to grid and 151 in grid to particle, which pass over the particles one after the other, and 16 of the grid.
 constexpr double bytes_per_particle_step = 272;
 
+/// The same with Real in float, for the places and deformation gradients of particles stay in double: of the 256 bytes
+/// of particles 52 are halves of what is not, and of those of the grid all 8.
+constexpr double bytes_per_particle_step_in_float = 212;
+
 /// Entrants that take turns, and how long a turn is.
 struct Group {
   std::string name, title;
@@ -26,9 +30,10 @@ struct Group {
   int turns;
   std::function<std::vector<Entrant>()> entrants;  ///< makes the scenes; throws Error
   bool asked_for = false;                          ///< runs only when it is named
+  bool on_device = false;                          ///< on one number of threads
 };
 
-/// block, large, methods, sent, growing, many, thousand.
+/// block, large, methods, sent, growing, many; thousand, device, device-large, device-cracks.
 std::vector<Group> throughput_groups();
 
 struct TaskTime {
@@ -45,6 +50,8 @@ struct Result {
   long steps = 0;               ///< in all turns
   std::vector<double> seconds;  ///< per step, one a turn
   std::vector<TaskTime> tasks;
+  std::vector<TaskTime> kernels;  ///< of all turns, in the order of their first launch
+  Precision precision = Precision::as_double;
   long particle_bytes = 0, other_bytes = 0;  ///< of the arrays at the end
   long contacts = 0;                         ///< pairs of fields that touched after the update, in all turns
   long grown = 0;                            ///< points by which cracks have grown, in all turns
@@ -60,6 +67,9 @@ struct Overhead {
   double median = 0;  ///< of the turns' ratios, less one
   double best = 0;    ///< ratio of the fastest turns, less one
 };
+
+/// B/s between memory and device that the block's step needs at the rate of the best turn, see bytes_per_particle_step.
+double achieved_bandwidth(const Result& result);
 
 /// Runs all entrants of a group on each number of threads, turn by turn. Throws Error (unstable) if a run goes wrong.
 std::vector<Result> measure(const Group& group, const std::vector<int>& threads);
@@ -81,7 +91,11 @@ Shares bound_shares(const Result& result, const std::vector<MachineRates>& rates
 std::string bound_table(const std::vector<MachineRates>& rates);
 /// Rates, shares of the bounds, speed-up over the first of `rates`, memory and overheads of one group.
 std::string rate_table(const std::vector<Result>& results, const std::vector<MachineRates>& rates);
+/// Rates on a device, and what share of the bandwidth of a copy there (B/s) the block's step reaches.
+std::string device_table(const std::vector<Result>& results, double copy);
 /// Nanoseconds per particle and step of each task, one column for each entrant on `threads`.
 std::string task_table(const std::vector<Result>& results, int threads);
+/// The same of each kernel.
+std::string kernel_table(const std::vector<Result>& results);
 
 }  // namespace riven::perf

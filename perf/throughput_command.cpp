@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "perf/commands.hpp"
+#include "perf/device_copy.hpp"
 #include "perf/machine.hpp"
 #include "perf/throughput.hpp"
 
@@ -39,11 +40,15 @@ std::vector<Group> chosen(const Options& o) {
   return list;
 }
 
+nlohmann::json to_json(const std::vector<TaskTime>& times) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const TaskTime& t : times)
+    list.push_back({{"label", t.label}, {"effect", t.effect}, {"nanoseconds_per_particle_step", t.nanoseconds}});
+  return list;
+}
+
 nlohmann::json to_json(const Result& r, const std::vector<Result>& all, const std::vector<MachineRates>& rates) {
   const Shares share = bound_shares(r, rates);
-  nlohmann::json tasks = nlohmann::json::array();
-  for (const TaskTime& t : r.tasks)
-    tasks.push_back({{"label", t.label}, {"effect", t.effect}, {"nanoseconds_per_particle_step", t.nanoseconds}});
   nlohmann::json j = {{"name", r.name},
                       {"threads", r.threads},
                       {"particles", r.particles},
@@ -59,7 +64,9 @@ nlohmann::json to_json(const Result& r, const std::vector<Result>& all, const st
                       {"grown", r.grown},
                       {"momentum_error", r.momentum_error},
                       {"energy_error", r.energy_error},
-                      {"tasks", tasks}};
+                      {"achieved_bytes_per_second", achieved_bandwidth(r)},
+                      {"tasks", to_json(r.tasks)},
+                      {"kernels", to_json(r.kernels)}};
   if (!r.without_cracks.empty()) {
     const Overhead o = crack_overhead(r, all);
     j["crack_overhead"] = {{"without_cracks", r.without_cracks}, {"median", o.median}, {"best", o.best}};
@@ -67,10 +74,17 @@ nlohmann::json to_json(const Result& r, const std::vector<Result>& all, const st
   return j;
 }
 
-void print_group(const Group& g, const std::vector<Result>& results, const std::vector<MachineRates>& rates) {
-  fmt::print("\n{}: {}; {} turns of {} steps\n{}\n", g.name, g.title, g.turns, g.steps, rate_table(results, rates));
-  for (const MachineRates& r : rates)
-    fmt::print("{}\n", task_table(results, r.threads));
+void print_group(const Group& g, const std::vector<Result>& results, const std::vector<MachineRates>& rates,
+                 double copy) {
+  fmt::print("\n{}: {}; {} turns of {} steps\n", g.name, g.title, g.turns, g.steps);
+  if (g.on_device) {
+    fmt::print("copy on the device: {:.1f} GB/s\n{}\n{}\n{}\n", 1e-9 * copy, device_table(results, copy),
+               task_table(results, results.front().threads), kernel_table(results));
+  } else {
+    fmt::print("{}\n", rate_table(results, rates));
+    for (const MachineRates& r : rates)
+      fmt::print("{}\n", task_table(results, r.threads));
+  }
   std::fflush(stdout);
 }
 
@@ -92,13 +106,16 @@ void throughput(const Options& o) {
         "one.\n{}",
         machine_name(), table(rates), flops_per_particle_step, bytes_per_particle_step, bound_table(rates));
   for (const Group& g : chosen(o)) {
-    const std::vector<Result> results = measure(g, o.threads);
+    const std::vector<Result> results = measure(g, g.on_device ? std::vector{o.threads.back()} : o.threads);
+    const double copy = g.on_device ? device_copy_bandwidth() : 0;
     if (!o.json)
-      print_group(g, results, rates);
+      print_group(g, results, rates, copy);
     nlohmann::json runs = nlohmann::json::array();
     for (const Result& r : results)
       runs.push_back(to_json(r, results, rates));
     out["groups"].push_back({{"name", g.name}, {"title", g.title}, {"runs", runs}});
+    if (g.on_device)
+      out["groups"].back()["device_copy_bytes_per_second"] = copy;
   }
   if (o.json)
     fmt::print("{}\n", out.dump(2));

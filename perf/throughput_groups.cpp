@@ -1,4 +1,6 @@
 // What riven-perf throughput runs.
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -8,6 +10,8 @@
 namespace riven::perf {
 
 namespace {
+
+constexpr double many_edge = 100e-3;  ///< of the plate with 200 cracks
 
 std::vector<Entrant> methods() {
   constexpr int cells = 200;
@@ -42,19 +46,19 @@ std::vector<Entrant> methods() {
           swirling("float", cells, [](Scene& s) { s.precision = Precision::as_float; })};
 }
 
-/// Blocks of 1, 4 and 16 million particles on the device, in both precisions and both scatters.
-std::vector<Entrant> on_device() {
+/// Blocks on the device, `across` cells wide and high, in both precisions.
+std::vector<Entrant> on_device(const std::vector<std::pair<const char*, int>>& across,
+                               const std::vector<ScatterKind>& scatters) {
   std::vector<Entrant> list;
-  for (const auto& [name, cells] : {std::pair{"1 million", 500}, {"4 million", 1000}, {"16 million", 2000}})
+  for (const auto& [name, cells] : across)
     for (const bool single : {false, true})
-      for (const ScatterKind scatter : {ScatterKind::atomic, ScatterKind::ordered})
-        list.push_back(
-            swirling(std::string(name) + (single ? ", float, " : ", double, ") + std::string(name_of(scatter)), cells,
-                     [=](Scene& s) {
-                       s.exec = exec::Kind::cuda;
-                       s.scatter = scatter;
-                       s.precision = single ? Precision::as_float : Precision::as_double;
-                     }));
+      for (const ScatterKind scatter : scatters)
+        list.push_back(swirling(fmt::format("{}, {}, {}", name, single ? "float" : "double", name_of(scatter)), cells,
+                                [=](Scene& s) {
+                                  s.exec = exec::Kind::cuda;
+                                  s.scatter = scatter;
+                                  s.precision = single ? Precision::as_float : Precision::as_double;
+                                }));
   return list;
 }
 
@@ -78,10 +82,26 @@ std::vector<Entrant> beside_plain(const Scene& plate) {
   return list;
 }
 
+/// The plate with 200 cracks with 16 million particles on the device, with USL as the block of that size beside it.
+std::vector<Entrant> cracks_on_device() {
+  const auto there = [](Scene& s) {
+    s.exec = exec::Kind::cuda;
+    s.scatter = ScatterKind::atomic;
+  };
+  Scene plate = many_plate(many_edge, many_edge / 2000);
+  plate.stress_update = StressUpdate::usl;
+  there(plate);
+  std::vector<Entrant> list{swirling("block", 2000, there)};
+  for (Entrant& e : pair_of(plate, ""))
+    list.push_back(std::move(e));
+  return list;
+}
+
 }  // namespace
 
 std::vector<Group> throughput_groups() {
-  constexpr double cell = 0.5e-3, edge = 100e-3;
+  constexpr double cell = 0.5e-3;
+  using enum ScatterKind;
   return {
       {"block", "block without cracks, 160,000 particles: uGIMP, FLIP, USL, neo-Hookean", 20, 50, 9,
        [] { return std::vector{swirling("block", 200)}; }},
@@ -94,11 +114,21 @@ std::vector<Group> throughput_groups() {
       {"growing", "plate with ten growing cracks, 65,536 particles, J and K at every tip", 60, 5, 20,
        [] { return pair_of(growing_plate(0.396875e-3), ""); }},
       {"many", "plate with 200 cracks, 160,000 particles, frictionless contact", 40, 8, 35,
-       [] { return beside_plain(many_plate(edge)); }},
-      {"device", "blocks without cracks of 1, 4 and 16 million particles on the device (--exec cuda)", 10, 20, 3,
-       on_device, true},
+       [] { return beside_plain(many_plate(many_edge)); }},
       {"thousand", "plate with 1,000 growing cracks, 4,000,000 particles, J and K at every tip", 60, 2, 15,
        [] { return pair_of(thousand_plate(), ""); }, true},
+      {"device", "blocks without cracks of 1, 4 and 16 million particles on the device (--exec cuda)", 20, 45, 5,
+       [] {
+         return on_device({{"1 million", 500}, {"4 million", 1000}, {"16 million", 2000}}, {atomic, ordered});
+       },
+       true, true},
+      {"device-large", "the same with 64 million particles", 20, 45, 3,
+       [] {
+         return on_device({{"64 million", 4000}}, {atomic});
+       },
+       true, true},
+      {"device-cracks", "plate with 200 cracks on the device, 16,000,000 particles, frictionless contact, USL", 20, 45,
+       5, cracks_on_device, true, true},
   };
 }
 

@@ -13,22 +13,44 @@ const Result& of(const std::vector<Result>& results, const std::string& name, in
                        [&](const Result& r) { return r.name == name && r.threads == threads; });
 }
 
-double nanoseconds(const Result& r, const std::string& label) {
-  const auto t = std::find_if(r.tasks.begin(), r.tasks.end(), [&](const TaskTime& x) { return x.label == label; });
-  return t == r.tasks.end() ? -1 : t->nanoseconds;
+using Times = std::vector<TaskTime> Result::*;  ///< of tasks, or of kernels
+
+double nanoseconds(const std::vector<TaskTime>& times, const std::string& label) {
+  const auto t = std::find_if(times.begin(), times.end(), [&](const TaskTime& x) { return x.label == label; });
+  return t == times.end() ? -1 : t->nanoseconds;
 }
 
 /// Labels of all results, each where the first that has it does it.
-std::vector<std::string> labels_of(const std::vector<const Result*>& results) {
+std::vector<std::string> labels_of(const std::vector<const Result*>& results, Times which) {
   std::vector<std::string> labels;
   for (const Result* r : results) {
     auto place = labels.begin();
-    for (const TaskTime& t : r->tasks) {
+    for (const TaskTime& t : r->*which) {
       const auto known = std::find(labels.begin(), labels.end(), t.label);
       place = (known != labels.end() ? known : labels.insert(place, t.label)) + 1;
     }
   }
   return labels;
+}
+
+/// A row for each label, a column for each result.
+std::string table_of(const std::string& title, const std::vector<const Result*>& columns, Times which) {
+  std::string text = fmt::format("{:<34}", title);
+  std::vector<int> width;
+  for (const Result* r : columns) {
+    width.push_back(std::max(14, static_cast<int>(r->name.size())));
+    text += fmt::format(" {:>{}}", r->name, width.back());
+  }
+  text += '\n';
+  for (const std::string& label : labels_of(columns, which)) {
+    text += fmt::format("{:<34}", label);
+    for (size_t c = 0; c < columns.size(); ++c) {
+      const double t = nanoseconds(columns[c]->*which, label), share = 100e-9 * t * columns[c]->median_rate();
+      text += fmt::format(" {:>{}}", t < 0 ? "-" : fmt::format("{:.3f} {:>4.1f}%", t, share), width[c]);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace
@@ -65,25 +87,36 @@ std::string rate_table(const std::vector<Result>& results, const std::vector<Mac
   return text;
 }
 
+std::string device_table(const std::vector<Result>& results, double copy) {
+  std::string text = fmt::format("{:<28} {:>10} {:>10} {:>10} {:>8} {:>7} {:>8} {:>9} {:>15}\n", "", "particles",
+                                 "best M/s", "median", "GB/s", "copy %", "B/part.", "momentum", "crack cost %");
+  for (const Result& r : results) {
+    std::string cost;
+    if (!r.without_cracks.empty())
+      cost = fmt::format("{:.1f}", 100 * crack_overhead(r, results).median);
+    text += fmt::format("{:<28} {:>10} {:>10.1f} {:>10.1f} {:>8.1f} {:>7.1f} {:>8.0f} {:>9.0e} {:>15}\n", r.name,
+                        r.particles, 1e-6 * r.best_rate(), 1e-6 * r.median_rate(), 1e-9 * achieved_bandwidth(r),
+                        100 * achieved_bandwidth(r) / copy,
+                        static_cast<double>(r.particle_bytes + r.other_bytes) / static_cast<double>(r.particles),
+                        r.momentum_error, cost);
+  }
+  return text;
+}
+
 std::string task_table(const std::vector<Result>& results, int threads) {
   std::vector<const Result*> columns;
   for (const Result& r : results)
     if (r.threads == threads)
       columns.push_back(&r);
-  std::string text =
-      fmt::format("{:<34}", fmt::format("ns per particle, {} thread{}", threads, threads == 1 ? "" : "s"));
-  for (const Result* r : columns)
-    text += fmt::format(" {:>14}", r->name);
-  text += '\n';
-  for (const std::string& label : labels_of(columns)) {
-    text += fmt::format("{:<34}", label);
-    for (const Result* r : columns) {
-      const double t = nanoseconds(*r, label), share = 100e-9 * t * r->median_rate();
-      text += t < 0 ? fmt::format(" {:>14}", "-") : fmt::format(" {:>8.2f} {:>4.1f}%", t, share);
-    }
-    text += '\n';
-  }
-  return text;
+  return table_of(fmt::format("ns per particle, {} thread{}", threads, threads == 1 ? "" : "s"), columns,
+                  &Result::tasks);
+}
+
+std::string kernel_table(const std::vector<Result>& results) {
+  std::vector<const Result*> columns;
+  for (const Result& r : results)
+    columns.push_back(&r);
+  return table_of("kernels, ns per particle", columns, &Result::kernels);
 }
 
 }  // namespace riven::perf

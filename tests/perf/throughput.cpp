@@ -46,6 +46,14 @@ TEST(Throughput, AsksNothingOfTheMemoryWhereTheArraysFitIntoTheCaches) {
   EXPECT_NEAR(s.bound, 0.1, 1e-12);
 }
 
+/// Ten million steps/s; what stays in double is the same whatever the precision.
+TEST(Throughput, SaysWhatBandwidthARateNeeds) {
+  Result r = running(1);
+  EXPECT_NEAR(achieved_bandwidth(r), 1e7 * bytes_per_particle_step, 1);
+  r.precision = Precision::as_float;
+  EXPECT_NEAR(achieved_bandwidth(r), 1e7 * (bytes_per_particle_step - 52 - 8), 1);
+}
+
 TEST(Throughput, HasNoBoundForThreadsThatWereNotMeasured) {
   EXPECT_THROW(bound_shares(running(1), {}), Error);
 }
