@@ -1,8 +1,10 @@
 // The execution spaces that one test source is run on, with both ways to scatter.
 #pragma once
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/exec/space.hpp"
 #include "core/scene/names.hpp"
 
@@ -32,5 +34,20 @@ inline std::vector<SpaceCase> space_cases() {
     cases.insert(cases.end(), {{cuda, 2, ScatterKind::ordered}, {cuda, 2, ScatterKind::atomic}});
   return cases;
 }
+
+/// Where tests run that are about no space in particular: on one thread of the host, or in the space that
+/// RIVEN_TEST_EXEC names, as for a GPU.
+class ChosenSpace : public exec::Space {
+ public:
+  ChosenSpace() : Space(chosen(), 1) {}
+
+ private:
+  static exec::Kind chosen() {
+    exec::Kind kind = exec::Kind::serial;
+    if (const char* text = std::getenv("RIVEN_TEST_EXEC"); text && !exec::parse(text, kind))
+      fail({Exit::bad_input, "no such space", "RIVEN_TEST_EXEC", text, {}, {}});
+    return kind;
+  }
+};
 
 }  // namespace riven::test

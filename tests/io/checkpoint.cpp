@@ -12,6 +12,7 @@
 #include "tests/io/faults.hpp"
 #include "tests/io/results_sample.hpp"
 #include "tests/io/small_run.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -64,7 +65,7 @@ TEST(Checkpoint, StandsAlone) {
   ASSERT_EQ(scene.cracks.size(), 1u) << "there is no cracks.csv to read it from";
   EXPECT_DOUBLE_EQ(scene.cracks[0].points[1].x, 6.1e-3);
   EXPECT_EQ(file.scene({"solver.time=1 s"}).end_time, 1);
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(scene, space);
   const RunSoFar back = file.restore(m);
   EXPECT_EQ(m.state.clock.step, 3);

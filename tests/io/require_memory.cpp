@@ -8,6 +8,7 @@
 #include "core/state/make_state.hpp"
 #include "kernels/dispatch.hpp"
 #include "tests/io/small_run.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -19,7 +20,7 @@ double predicted_over_actual(const std::vector<std::string>& more) {
   const Scene s = test::small(settings);
   double actual = 0;
   with_precision(s.precision, [&](auto real) {
-    const exec::Space space;
+    const test::ChosenSpace space;
     SimulationOf<typename decltype(real)::type> m(s, space);
     m.step();  // with the arrays that the first step makes
     for (const ArrayReport& a : list_arrays(m.state))

@@ -13,6 +13,7 @@
 #include "tests/io/results_sample.hpp"
 #include "tests/physics/restarts.hpp"
 #include "tests/program.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -48,7 +49,7 @@ struct Ran {
   }
 
   const Scene scene;
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m;
   Exit code = Exit::done;
   nlohmann::json summary;
@@ -150,7 +151,7 @@ TEST(Retry, WithoutACheckpointItBeginsAnew) {
 
 TEST(Retry, WhatBeginsAnewIsAsItWasMade) {
   const Scene scene = restarts::growing({"solver.deterministic=true"});
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation fresh(scene, space), again(scene, space);
   restarts::run(again, 150, [] {});
   EXPECT_FALSE(again.state.events.empty());

@@ -6,6 +6,7 @@
 #include "io/check_scene.hpp"
 #include "io/read_scene.hpp"
 #include "kernels/simulation.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven::test {
 
@@ -51,7 +52,7 @@ struct SmallRun {
       m.step();
   }
   const Scene scene;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m;
 };
 

@@ -9,6 +9,7 @@
 #include "kernels/crack_step.hpp"
 #include "kernels/particle_to_grid.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -49,7 +50,7 @@ struct Square {
     return sum;
   }
 
-  const exec::Space space{exec::Kind::serial, 1};
+  const test::ChosenSpace space;
   Scene scene;
   Simulation m{scene, space};
   TipBridges bridges;

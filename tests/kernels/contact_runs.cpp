@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/simulation.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -55,7 +56,7 @@ double distance_from_whole(StressUpdate update, Transfer transfer, ContactSettin
   Scene cut = whole;
   cut.contact = law;
   cut.cracks = {crack("level", {0, 0.513}, {1, 0.513}), crack("upright", {0.487, 0}, {0.487, 1})};
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation a(whole, space), b(cut, space);
   for (int n = 0; n < 100; ++n) {
     a.step();
@@ -100,7 +101,7 @@ TEST(ContactRuns, ElasticBarsExchangeTheirVelocities) {
     s.contact.law = law;
     s.bodies = {block("low", {0, 0}, {0.25, 1}), block("up", {0, 1}, {0.25, 2}, {0, -1})};
     s.cracks = {crack("contact", {0, 1 + 1e-4}, {0.25, 1 + 1e-4})};
-    const exec::Space space;
+    const test::ChosenSpace space;
     Simulation m(s, space);
     m.take_stock();
     const double first = m.state.ledger.energy.total(), duration = 2 / std::sqrt(1e3);
@@ -133,7 +134,7 @@ TEST(ContactRuns, BlocksOnASoftInterfaceOscillateWithItsFrequency) {
   const double speed = 0.01;
   s.bodies = {block("low", {0, 0}, {0.25, 0.5}), block("up", {0, 0.5}, {0.25, 1}, {0, speed})};
   s.cracks = {crack("spring", {0, 0.5 + 1e-4}, {0.25, 0.5 + 1e-4})};
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(s, space);
   m.take_stock();
   const double first = m.state.ledger.energy.total();
@@ -209,7 +210,7 @@ TEST(ContactRuns, TwoCrossingClosedCracksCarryTheLoadOfASqueezedBlock) {
     Scene s = squeezed_block(strain, strain);
     s.contact.law = law;
     s.cracks = {crack("level", {0, 0.513}, {1, 0.513}), crack("upright", {0.487, 0}, {0.487, 1})};
-    const exec::Space space;
+    const test::ChosenSpace space;
     Simulation m(s, space);
     while (m.state.clock.time < 0.5)
       m.step();
@@ -241,7 +242,7 @@ TEST(ContactRuns, FrictionSlowsASlidingBodyByCoulombsLaw) {
   s.fixed = {floor};
   s.body_force[1] = TimeFunction{-g, {}, ""};
   s.cracks = {crack("slide", {0, 0.25 + 1e-4}, {1, 0.25 + 1e-4})};
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(s, space);
   const auto along = [&] {
     TwoBars v;

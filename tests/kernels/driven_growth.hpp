@@ -11,6 +11,7 @@
 #include "kernels/assign_fields.hpp"
 #include "kernels/hash_cracks.hpp"
 #include "kernels/simulation.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven::driven_growth {
 
@@ -65,7 +66,7 @@ struct Driven {
     }
   }
   static const exec::Space& serial() {
-    static const exec::Space space;
+    static const test::ChosenSpace space;
     return space;
   }
   void steps(int n) {

@@ -7,6 +7,7 @@
 #include "core/plan/explain.hpp"
 #include "core/state/make_state.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -157,7 +158,7 @@ TEST_P(Effects, HaveNoTaskAndNoArrayWhereTheyAreNotAsked) {
   c.add(with);
   EXPECT_FALSE(on(without, c.name));
   EXPECT_TRUE(on(with, c.name));
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation a(without, space), b(with, space);
   for (int steps = 0; steps < 2; ++steps) {
     if (*c.task) {
@@ -184,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(All, Effects, testing::ValuesIn(effects), [](const auto
 /// What the state holds beside the arrays of list_arrays.
 TEST(EffectsOfThePlainStep, HoldNothingElse) {
   const Scene s = plain();
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   for (int n = 0; n < 3; ++n)
     m.step();

@@ -5,6 +5,7 @@
 
 #include "kernels/dispatch.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -21,7 +22,7 @@ Scene plate(const std::vector<std::vector<Vec2>>& cracks) {
 
 /// Shares of the mass, in every shape function and precision.
 void expect_fragments(const char* what, Scene s, const std::vector<double>& shares) {
-  const exec::Space space;
+  const ChosenSpace space;
   for (const Precision precision : {Precision::as_double, Precision::as_float})
     for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::ugimp, ShapeFunction::bspline}) {
       s.precision = precision;
@@ -61,7 +62,7 @@ TEST(Fragments, AreFoundWhereParticlesAreNow) {
   s.bodies[0].velocity = {-1, 0};
   s.bodies[1].velocity = {1, 0};
   s.end_time = 0.2;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   while (!m.finished())
     m.step();

@@ -13,6 +13,7 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/simulation.hpp"
 #include "kernels/sort_particles.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -172,7 +173,7 @@ TEST(Transfers, FollowTheirMatrixFormulas) {
         if (order > 1 && (transfer == Transfer::flip || transfer == Transfer::pic))
           continue;
         const Scene s = block_scene(shape, transfer, order);
-        const exec::Space space;
+        const test::ChosenSpace space;
         Simulation m(s, space);
         shake(m, true);
         const Dense d = dense(m, shape);
@@ -196,7 +197,7 @@ TEST(Transfers, FollowTheirMatrixFormulas) {
 
 /// A solid on a crack that runs through moves as if there were none on the other side, in every order.
 TEST(Transfers, KeepToTheirSideOfACrack) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   const auto after_a_step = [&](const Scene& s) {
     Simulation m(s, space);
     auto& p = m.state.particles;
@@ -234,7 +235,7 @@ TEST(Transfers, KeepToTheirSideOfACrack) {
 TEST(Transfers, SmoothingIdentities) {
   for (const ShapeFunction shape : shapes) {
     const Scene s = block_scene(shape, Transfer::flip, 1);
-    const exec::Space space;
+    const test::ChosenSpace space;
     Simulation m(s, space);
     shake(m, false);
     const Dense d = dense(m, shape);
@@ -252,7 +253,7 @@ TEST(Transfers, SmoothingIdentities) {
 }
 
 TEST(Transfers, FirstOrdersArePic) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   std::vector<Column> results;
   for (const Transfer transfer : {Transfer::pic, Transfer::xpic, Transfer::fmpm}) {
     const Scene s = block_scene(ShapeFunction::ugimp, transfer, 1);
@@ -282,7 +283,7 @@ Vec2 momentum(const Dense& d, const Column& V) {
 /// What the grid can show of the particles' velocities stays, more of it with each order (FLIP keeps all of it); and
 /// momentum is the same to rounding in every order.
 TEST(Transfers, HigherOrdersLoseLess) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   for (const Transfer transfer : {Transfer::xpic, Transfer::fmpm}) {
     double before = 0, first = 0, last = 0;
     for (const int order : {1, 2, 4, 8, 16, 32, 64}) {
@@ -363,7 +364,7 @@ Column unseen(const Dense& d) {
 /// Velocities that no node sees, S+ V = 0: FLIP keeps them for ever and they neither grow nor move anything; XPIC and
 /// FMPM of any order wipe them out at once.
 TEST(Transfers, NullSpaceNoise) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   for (const Transfer transfer : {Transfer::flip, Transfer::xpic, Transfer::fmpm})
     for (const int order : {1, 2, 5}) {
       Scene s = block_scene(ShapeFunction::ugimp, transfer, order);

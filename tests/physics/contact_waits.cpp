@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -18,7 +19,7 @@ struct Flight {
 Flight fly(Scene scene, ContactWhen when) {
   scene.deterministic = true;
   scene.contact_rules.when = when;
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(scene, space);
   while (!m.finished())
     m.step();

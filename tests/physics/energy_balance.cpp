@@ -12,6 +12,7 @@
 #include "kernels/fragments.hpp"
 #include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -26,7 +27,7 @@ struct Balance {
 };
 
 Balance balance(const Scene& s, int every = 10) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.take_stock();
   Balance b;

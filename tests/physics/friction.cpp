@@ -11,6 +11,7 @@
 
 #include "io/crack_opening.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -53,7 +54,7 @@ struct Squeezed {
 
 Squeezed squeeze(double pressure, double mu) {
   const Scene scene = block_between_plates(pressure, mu);
-  const exec::Space space(exec::Kind::serial, 1);
+  const ChosenSpace space;
   Simulation m(scene, space);
   Squeezed r;
   int n = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/physics/strip.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -23,7 +24,7 @@ Scene strip(GrowthCriterion criterion) {
 TEST(CrackGrowth, StartsWhenTheStripAheadReleasesEnough) {
   for (const GrowthCriterion criterion : {GrowthCriterion::critical_j, GrowthCriterion::k_max}) {
     const Scene scene = strip(criterion);
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(scene, space);
     ASSERT_EQ(m.state.tips.size(), 1u);
     while (m.state.events.empty() && m.state.clock.time < 1e-3)

@@ -10,6 +10,7 @@
 #include "kernels/crack_step.hpp"
 #include "kernels/j_integral.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -94,7 +95,7 @@ TipSums sums_at(Simulation& m, Vec2 tip, Vec2 heading, double contour, bool face
 }
 
 TEST(JOfKnownFields, IsKSquaredOverTheModulusForAnyTipAndContour) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   const double K_I = 3, K_II = -2;
   for (const Plane plane : {Plane::strain, Plane::stress})
     for (const double angle : {0.0, 30.0, 101.0, 180.0})
@@ -125,7 +126,7 @@ TEST(JOfKnownFields, IsKSquaredOverTheModulusForAnyTipAndContour) {
 // Strains of 1e-6 in a body that has turned by 50 degrees: what particles miss of the balance of forces must not count
 // a million times.
 TEST(JOfKnownFields, IsTheSameInABodyThatHasTurned) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   const double K_I = 3, K_II = -2, angle = 50 * std::numbers::pi / 180;
   const Vec2 turn{std::cos(angle), std::sin(angle)};
   for (const Vec2 tip : {Vec2{0, 0}, Vec2{-0.38, 0.21}}) {
@@ -151,7 +152,7 @@ TEST(JOfKnownFields, IsTheSameInABodyThatHasTurned) {
 // the left part. What the contour alone makes of it is the strain energy of the right times the length of its cut
 // (Nairn and Aimene, eq. 13).
 TEST(JOfKnownFields, IsUntouchedByAPartBeyondAnotherCrack) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   for (const double cut : {0.7, 1.5, 2.2})
     for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::ugimp, ShapeFunction::bspline}) {
       const Scene scene = square(
@@ -171,7 +172,7 @@ TEST(JOfKnownFields, IsUntouchedByAPartBeyondAnotherCrack) {
 // Where two faces of another crack press on each other the field goes on through it, and the crack might as well not
 // be there.
 TEST(JOfKnownFields, IsThatOfTheTipAloneAcrossAShutCrack) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   for (const double cut : {-2.3, 2.6, 3.5}) {
     Scene scene =
         square(Plane::strain, {crack("target", {{-20, 0.1}, {0, 0.1}}), crack("cut", {{cut, -20}, {cut, 20}})});
@@ -188,7 +189,7 @@ TEST(JOfKnownFields, IsThatOfTheTipAloneAcrossAShutCrack) {
 // A crack that is pressed shut by p and slides against the friction mu p, K_II besides: the contact has no part in the
 // energy that the tip releases, whatever the contour, and the fields next to the faces that bear it are no mode I.
 TEST(JOfKnownFields, IsThatOfTheTipAloneBetweenShutFacesThatSlide) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   constexpr double p = 2, mu = 0.4, K_II = 3;
   for (const double friction : {0.0, mu})
     for (const double angle : {0.0, 25.0, 180.0}) {
@@ -234,7 +235,7 @@ TEST(JOfKnownFields, IsThatOfTheTipAloneBetweenShutFacesThatSlide) {
 // wherever it is in a segment. The opening of a point on the cut is anything between those of its two sides. What looks
 // away from other cracks takes the jump for part of J (eq. 11).
 TEST(JOfKnownFields, LeavesOutTheJumpWhereAnotherCrackCutsFacesUnderPressure) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   constexpr double P = 4, jump = 6e-6, slope[2] = {1e-6, 3e-6}, contour = 8;
   for (const double cut : {-2.0, -2.05, -2.2, -2.25, -2.4, -2.45, -3.7})
     for (const double heading : {1.0, -1.0}) {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -38,7 +39,7 @@ TEST(LoadFields, AUniformAccelerationIsTheBodyForce) {
   Scene with_load = block(), with_gravity = block();
   with_load.loads = {acceleration(with_load, constant(3))};
   with_gravity.body_force[0] = constant(3);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation a(with_load, space), b(with_gravity, space);
   for (int k = 0; k < 50; ++k) {
     a.step();
@@ -61,7 +62,7 @@ TEST(LoadFields, AUniformAccelerationIsTheBodyForce) {
 TEST(LoadFields, GiveTheImpulseOfTheirIntegral) {
   Scene s = block();
   s.loads = {acceleration(s, ramp())};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   for (int k = 0; k < 40; ++k)
     m.step();
@@ -81,7 +82,7 @@ TEST(LoadFields, GiveTheMomentOfATractionThatVariesAlongItsEdge) {
   load.region = s.bodies[0].region;
   load.value[0] = {60, [](double, long n, const double*, const double* Y, double* out) { std::copy(Y, Y + n, out); }};
   s.loads = {load};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.step();
   Vec2 force;
@@ -119,7 +120,7 @@ TEST(LoadFields, MustBeNumbersWhereTheyAct) {
   load.loads = {acceleration(load, Field(1, bad))};
   load.loads[0].name = "wind";
   velocity.bodies[0].velocity_field[0] = Field(1, bad);
-  const exec::Space space;
+  const ChosenSpace space;
   for (const Scene* s : {&load, &velocity})
     try {
       const Simulation m(*s, space);

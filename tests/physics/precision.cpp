@@ -110,7 +110,7 @@ TEST(Precision, ASwirlingBlockInFloatKeepsMomentumAndStaysByTheOneInDouble) {
         report(fmt::format("{}, float: momentum error", name_of(law)), now.momentum_error, "1e-7");
         report(fmt::format("{}, float beside double: angular momentum error", name_of(law)),
                now.angular_error - exact.angular_error, "1e-7");
-      } else if (where.scatter == ScatterKind::ordered) {
+      } else if (where.same_bits()) {
         for (size_t i = 0; i < now.x.size(); ++i) {
           ASSERT_EQ(now.x[i].x, first.x[i].x) << where.name();
           ASSERT_EQ(now.stress[2][i], first.stress[2][i]) << where.name();
@@ -146,7 +146,7 @@ Swing swing(LawKind law, StressUpdate update) {
   s.probes = {keep};
   const double c = std::sqrt(s.materials[0].E / s.materials[0].density), omega = pi * c / L;
   const double amplitude = strain * L / pi;
-  const exec::Space space;
+  const ChosenSpace space;
   SimulationOf<Real> m(s, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i)
@@ -258,7 +258,7 @@ TEST(Precision, CracksInFloatGrowByTheSameEvents) {
 template <class Real>
 std::pair<double, double> bytes_of_block(LawKind law) {
   const Scene s = in<Real>(swirling_block(law, StressUpdate::usl));
-  const exec::Space space;
+  const ChosenSpace space;
   const SimulationOf<Real> m(s, space);
   double particles = 0, grid = 0;
   for (const ArrayReport& a : list_arrays(m.state))
@@ -288,7 +288,7 @@ TEST(Precision, ResultsOfARunInFloatAreReadAsThoseInDouble) {
   probe.axis = 0;
   probe.point = {0.5, 0.5};
   s.probes = {probe};
-  const exec::Space space;
+  const ChosenSpace space;
   SimulationOf<float> m(s, space);
   const sample::Folder folder;
   const Summary summary = run_scene(m, {folder.path(), true});
@@ -309,7 +309,7 @@ Trouble trouble_of_flight() {
   Scene s = in<Real>(swirling_block(LawKind::linear_elastic, StressUpdate::usl));
   s.bodies[0].velocity = {20, 0};
   s.end_time = 0.1;
-  const exec::Space space;
+  const ChosenSpace space;
   SimulationOf<Real> m(s, space);
   try {
     while (!m.finished())
@@ -334,7 +334,7 @@ TEST(Precision, ARunInFloatStopsForTheReasonOfOneInDouble) {
 /// A simulation in one precision of a scene that says the other.
 TEST(Precision, IsThatOfTheScene) {
   const Scene s = swirling_block(LawKind::linear_elastic, StressUpdate::usl);
-  const exec::Space space;
+  const ChosenSpace space;
   EXPECT_THROW(SimulationOf<float>(s, space), Error);
   EXPECT_THROW(Simulation(in<float>(s), space), Error);
 }

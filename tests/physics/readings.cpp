@@ -1,5 +1,6 @@
 // Several contours and methods from one run: each says what a run of its own would have said.
 #include "tests/physics/tip_history.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -28,7 +29,7 @@ TEST(Readings, AgreeWithRunsOfTheirOwn) {
       {}, {"fracture.contour=8", "fracture.area_integral=always"}, {"fracture.contour=8", "fracture.method=pijc"}};
   for (size_t k = 0; k < own.size(); ++k) {
     const Scene scene = coarse(own[k]);
-    const exec::Space space;
+    const test::ChosenSpace space;
     Simulation m(scene, space);
     while (!m.finished())
       m.step();

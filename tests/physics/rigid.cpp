@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -19,7 +20,7 @@ void cut(Scene& s, ContactLaw law) {
 
 /// A translation over about nine cells along x and four along y.
 void translate(const Scene& scene) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(scene, space);
   const Vec2 v = scene.bodies[0].velocity;
   auto& p = m.state.particles;
@@ -94,7 +95,7 @@ TEST(RigidTranslation, SlowsDownUnderEitherDampingAsOneBody) {
       s.dt_max = 1e-3;
       const double kappa = 0.01 / s.dt_max;
       (particles ? s.particle_damping : s.grid_damping) = constant(kappa);
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       const auto& p = m.state.particles;
       const double v0 = p.v[0][0], x0 = p.x[0][0];
@@ -116,7 +117,7 @@ TEST(RigidTranslation, SlowsDownUnderEitherDampingAsOneBody) {
 
 /// 1000 steps of a cracked block that spins and pulsates, its crack faces beating.
 void beat(const Scene& scene, bool cracked) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(scene, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i) {

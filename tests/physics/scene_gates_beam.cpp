@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "kernels/tally.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -34,7 +35,7 @@ double impactor_velocity(const Particles<double, 2>& p) {
 
 /// The scene with one way to update the stress; energies every 20 steps.
 Energies run(const std::string& update, double energy_growth, double cfl) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   const Scene scene = shipped("beam_impact", {"solver.stress_update=" + update, fmt::format("solver.cfl={}", cfl),
                                               fmt::format("limits.energy_growth={}", energy_growth)});
   Simulation m(scene, space);

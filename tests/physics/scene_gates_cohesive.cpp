@@ -5,6 +5,7 @@
 #include "core/state/tractions.hpp"
 #include "kernels/j_integral.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -24,7 +25,7 @@ struct Bar {
 };
 
 Bar pull_bar(const std::vector<std::string>& settings = {}) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   const Scene scene = shipped("cohesive_bar", settings);
   Simulation m(scene, space);
   const Cohesive law(*scene.cracks[0].traction);
@@ -124,7 +125,7 @@ Front front(Simulation& m) {
 }
 
 TEST(CohesiveDcb, DissipatesItsToughnessPerNewArea) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   Scene scene = shipped("cohesive_dcb");
   scene.fracture.asked = true;
   Simulation m(scene, space);
@@ -174,7 +175,7 @@ TEST(CohesiveDcb, DissipatesItsToughnessPerNewArea) {
 /// finds J from the loads alone, J = sum f_p . du_p/dx / b (body forces f_p), and W_Z and what the zone has dissipated
 /// at its root are the same J, taken from the inside (G. Bao and Z. Suo, Appl. Mech. Rev. 45 (1992) 355-366).
 TEST(CohesiveDcb, TakesUpAtItsRootTheJOfTheLoads) {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   Scene scene = shipped("cohesive_dcb");
   scene.grips.clear();
   scene.probes.clear();

@@ -5,6 +5,7 @@
 
 #include "io/particle_stress.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -91,7 +92,7 @@ struct FiveDisks {
 };
 
 FiveDisks run_five_disks(const std::vector<std::string>& settings) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   Scene scene = shipped("five_disks", settings);
   scene.deterministic = true;
   const double c = std::sqrt(scene.materials[0].E / scene.materials[0].density), unit = diameter / c;
@@ -208,7 +209,7 @@ struct HalfModel {
 };
 
 HalfModel run_upper_halves() {
-  const exec::Space space(exec::Kind::serial, 1);
+  const test::ChosenSpace space;
   Scene scene = shipped("five_disks");
   const Material& disk = scene.materials[0];
   const double unit = diameter / std::sqrt(disk.E / disk.density);

@@ -9,6 +9,7 @@
 
 #include "core/fracture/growth.hpp"
 #include "tests/physics/plates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -42,7 +43,7 @@ Scene plate_with_slanted_crack() {
 Tip tip_at_rest(double toughness) {
   Scene s = plate_with_slanted_crack();
   s.growth->toughness = toughness;
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(s, space);
   Tip& far = m.state.tips[0].last ? m.state.tips[1] : m.state.tips[0];
   Tip& tip = m.state.tips[0].last ? m.state.tips[0] : m.state.tips[1];

@@ -6,6 +6,7 @@
 #include "io/particle_stress.hpp"
 #include "tests/physics/q4_plate.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -42,7 +43,7 @@ struct AtRest {
     m.take_stock();
   }
 
-  exec::Space space{exec::Kind::serial, 1};
+  test::ChosenSpace space;
   Scene scene;
   Simulation m;
   test::Q4Plate plate;

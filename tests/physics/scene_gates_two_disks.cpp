@@ -7,6 +7,7 @@
 #include "io/particle_stress.hpp"
 #include "kernels/contact_meetings.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -150,7 +151,7 @@ struct TwoDisks {
 };
 
 TwoDisks run_two_disks(const std::vector<std::string>& settings, bool volumes = false) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   Scene scene = shipped("two_disks", settings);
   scene.deterministic = true;
   scene.end_time = 45 * ms;

@@ -16,6 +16,7 @@
 #include "tests/io/results_sample.hpp"
 #include "tests/physics/scenes.hpp"
 #include "tests/program.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -63,7 +64,7 @@ constexpr StressUpdate updates[] = {StressUpdate::usl, StressUpdate::musl, Stres
 TEST(Stops, NameTheParticleThatLeavesTheGrid) {
   Scene s = resting_block();
   s.bodies[0].velocity = {40, 0};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   const Trouble t = trouble_of(m, 1000);
   expect_stop(t, "left the grid", -1);
@@ -76,7 +77,7 @@ TEST(Stops, NameAParticleWithoutANumber) {
     for (const StressUpdate update : updates) {
       Scene s = resting_block();
       s.stress_update = update;
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       for (int n = 0; n < 5; ++n)
         m.step();
@@ -92,7 +93,7 @@ TEST(Stops, NameAParticleWhoseStressIsNotANumber) {
   for (const LawKind law : {LawKind::linear_elastic, LawKind::neo_hookean}) {
     Scene s = resting_block();
     s.materials = {solid(law)};
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     m.state.particles.stress[0][12] = std::numeric_limits<double>::quiet_NaN();
     if (law == LawKind::neo_hookean)
@@ -109,7 +110,7 @@ TEST(Stops, NameTheParticleThatTurnsInsideOut) {
       Scene s = resting_block();
       s.materials = {solid(law)};
       s.stress_update = update;
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       int id;
       if (law == LawKind::neo_hookean) {
@@ -129,7 +130,7 @@ TEST(Stops, NameTheParticleThatTurnsInsideOut) {
 TEST(Stops, NameTheFastestParticleWhenEnergyGrowsFromNothing) {
   Scene s = resting_block();
   s.bodies[0].spin = 1;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.take_stock();
   for (int n = 0; n < 5; ++n)
@@ -157,7 +158,7 @@ TEST(Stops, LetLoadsBeginAtOnce) {
   load.region = s.bodies[0].region;
   load.value[0] = constant(100);
   s.loads = {load};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.step();
   EXPECT_NO_THROW(m.take_stock());
@@ -175,7 +176,7 @@ TEST(Stops, LeaveWhatTheTransferGivesBackOutOfGrowth) {
   s.bodies[0].spin = 1;
   s.transfer = Transfer::fmpm;
   s.order = 2;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.step();
   m.state.clock.step = 1000;  // long after the start, when nothing more is allowed

@@ -9,6 +9,7 @@
 
 #include "core/scene/schedule.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven::gates {
 
@@ -23,7 +24,7 @@ using TipHistory = std::vector<TipRow>;
 inline std::vector<TipHistory> run_with(Scene scene, const std::vector<FractureRules>& rules) {
   for (const FractureRules& r : rules)
     scene.readings.push_back({"", r});
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(scene, space);
   std::vector<TipHistory> histories(rules.size());
   const Clock& c = m.state.clock;

@@ -9,6 +9,7 @@
 
 #include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -51,7 +52,7 @@ TEST(Tractions, KeepMomentum) {
       s.stress_update = update;
       s.transfer = transfer;
       s.limits.energy_growth = 1;
-      const exec::Space space(exec::Kind::serial, 1);
+      const ChosenSpace space;
       Simulation m(s, space);
       auto& p = m.state.particles;
       for (int i = 0; i < p.count(); ++i) {
@@ -76,7 +77,7 @@ TEST(Tractions, KeepMomentum) {
 /// A face that lies in the air bears nothing: the area of the crack's points is that of its part in the block.
 TEST(Tractions, ActOnTheSolidOnly) {
   const Scene s = torn_block();
-  const exec::Space space(exec::Kind::serial, 1);
+  const ChosenSpace space;
   const Simulation m(s, space);
   const Cracks& c = m.state.cracks;
   double area[2] = {0, 0};
@@ -113,7 +114,7 @@ Pressed press(Scene s, double p) {
   };
   s.grid_damping = constant(3 / ramp);
   s.end_time = 6 * ramp;
-  const exec::Space space(exec::Kind::serial, 1);
+  const ChosenSpace space;
   Simulation m(s, space);
   while (!m.finished())
     m.step();
@@ -210,7 +211,7 @@ TEST(Cohesive, StiffLawsHoldTheirFacesTogetherAtTheirTimeStep) {
   s.cracks[0].traction = cohesive(TractionKind::triangular, 1e6, 1e4, 0.15625);
   const double stiffness = 40 * 1e6 / s.cell;
   const auto swing = [](const Scene& scene) {
-    const exec::Space space(exec::Kind::serial, 1);
+    const ChosenSpace space;
     Simulation m(scene, space);
     for (int i = 0; i < m.state.particles.count(); ++i)
       m.state.particles.v[0][i] = 0.1 * std::sin(pi * (m.state.particles.x[0][i] - 1) / 2);

@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "io/probes.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -90,7 +91,7 @@ Scene vibrating(ShapeFunction shape, int cells, double amplitude, int particles_
 /// RMS displacement error over the amplitude, looked at in every fourth step.
 double error(ShapeFunction shape, int cells, double amplitude, int particles_per_cell = 2) {
   const Scene scene = vibrating(shape, cells, amplitude, particles_per_cell);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(scene, space);
   const Probes probes(m);
   double sum = 0;

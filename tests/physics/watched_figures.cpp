@@ -5,6 +5,7 @@
 #include "kernels/tally.hpp"
 #include "kernels/watch_figures.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
 
 namespace riven {
 namespace {
@@ -34,7 +35,7 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
   for (const LawKind law : {LawKind::linear_elastic, LawKind::neo_hookean}) {
     Scene s = cracked_block();
     s.materials[0].law = law;
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     auto& p = m.state.particles;
     const auto set_J = [&](long i, double J) {
@@ -71,7 +72,7 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
 TEST(WatchedFigures, RememberTheWorstAndTheFirstThatWasBeyond) {
   Scene s = cracked_block();
   s.limits.warn[static_cast<size_t>(Watched::expansion)] = 1.2;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   const double values[] = {1.1, 1.3, 1.6, 1.4, 1.1};
   for (int n = 0; n < 5; ++n) {
@@ -96,7 +97,7 @@ TEST(WatchedFigures, StopTheRunWhereTheSceneSaysSo) {
   for (const Watched which : {Watched::compression, Watched::velocity_difference}) {
     Scene s = cracked_block();
     s.limits.stop[static_cast<size_t>(which)] = 1.5;
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     m.state.particles.v[0][9] = 1;  // the fastest: named where a figure has no place
     m.state.particles.J[9] = 0.5;
@@ -121,7 +122,7 @@ TEST(WatchedFigures, CompareVelocitiesOfParticlesAndGrid) {
     s.cracks.clear();
     s.stress_update = update;
     s.bodies[0].velocity = {3, -2};
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     m.step();
     EXPECT_LT(m.state.watch.velocity_difference, 1e-13);

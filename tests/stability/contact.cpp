@@ -4,6 +4,7 @@
 #include <random>
 
 #include "io/crack_opening.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -69,7 +70,7 @@ struct Approach {
 
 /// The blocks part until their faces stand a cell apart, and come back at a hundredth of the speed of waves.
 Approach come_back(const Scene& s, const std::string& row) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   const double c = wave_speed(s.materials.back());
   fly(m, -0.05 * c, 0.05 * c);
@@ -190,7 +191,7 @@ TEST(ShutCrack, StaysShutUnderNoise) {
   for (const auto& c : cracks)
     for (const ContactLaw law : {ContactLaw::frictionless, ContactLaw::coulomb}) {
       const Scene s = pressed_block(1e-3, c.points, {law, law == ContactLaw::coulomb ? 0.6 : 0, 0, 0});
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       shake(m, 5e-3);
       Account account(m);
@@ -232,7 +233,7 @@ TEST(Chatter, TakesNoMoreThanFriction) {
           TimeFunction{-pressure, [](double t) { return std::min(1., t / 0.2) * (1 + 0.2 * std::sin(90 * t)); }, ""};
     s.loads.push_back(load);
   }
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   Account account(m);
   double friction = 0, taken = 0, given_back = 0;

@@ -7,6 +7,7 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/particle_to_grid.hpp"
 #include "tests/kernels/crack_reference.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -65,7 +66,7 @@ struct Opened {
 
 Opened open(double h, double offset, ContactLaw law) {
   const Scene s = cantilevers(h, offset, law);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   Account account(m);
   run(m, account, 300, 50);
@@ -125,7 +126,7 @@ std::array<long, 8> signs_met(const Simulation& m) {
 
 /// With the crack on a row of nodes, and with it just off one, so that both tables are gone through.
 TEST(CrackOnNodes, MeetsAllPatternsOfSigns) {
-  const exec::Space space;
+  const ChosenSpace space;
   Scene s = cantilevers(0.125, 0, ContactLaw::ignored);
   s.cracks[0].points[1].x = 8 * s.cell;
   const Scene off = cantilevers(0.125, 0.3, ContactLaw::ignored);
@@ -172,7 +173,7 @@ TEST(CrackThroughParticles, HasAParticleOnOneSide) {
   const double h = 0.125;
   for (const double row : {-0.25, 0.25}) {
     const Scene s = cantilevers(h, row, ContactLaw::frictionless);
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     Account account(m);
     long wrong = -1;
@@ -222,7 +223,7 @@ TEST(ZigZag, HasTheFieldsOfExactArithmetic) {
     const auto p = crack_scene::sorted_particles<UGimp>(l, places, crack_scene::in_order(places.size()));
     const Cracks cracks = crack_scene::cracks_of({points});
     const auto domain = crack_scene::quarter_cells(l);
-    const exec::Space space;
+    const ChosenSpace space;
     CrackFields f;
     hash_cracks<UGimp>(space, l, cracks, f);
     determine_fields<UGimp>(space, p, &domain, l, cracks, f);
@@ -242,7 +243,7 @@ TEST(ZigZag, LeavesNoFieldWithoutMass) {
   s.cracks[0].points.clear();
   for (int k = 0; k < 24; ++k)
     s.cracks[0].points.push_back({(-1 + 0.35 * k) * h, (k % 2 ? 0.35 : -0.35) * h});
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   Account account(m);
   double orphans = 0;
@@ -263,7 +264,7 @@ TEST(CrackBesideABody, StaysWhereItIs) {
   Scene s = empty_scene(1, {{-6, -6}, {16, 16}});
   s.bodies = {body("block", Rectangle{{0, 0}, {8, 8}})};
   s.cracks = {crack("beside", {{9.125, 2.3}, {10, 5.4}})};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i)

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "core/state/tractions.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -39,7 +40,7 @@ TEST(StiffInterface, JumpsByTheStressOverItsStiffness) {
     s.contact = {ContactLaw::interface, 0, D, D};
     s.grid_damping = constant(60);
     pull(s, stress);
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     Account account(m);
     while (m.state.clock.time < 1)
@@ -67,7 +68,7 @@ TEST(StiffInterface, DoesNotGrowWhereTheNaiveOneDoes) {
   Scene s = cut_bar(0);
   s.contact = {ContactLaw::interface, 0, D, D};
   s.limits.energy_growth = 1e9;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   for (int i = 0; i < m.state.particles.count(); ++i)
     m.state.particles.v[0][i] = 0.1 * (m.state.particles.x[0][i] - 0.5);
@@ -95,7 +96,7 @@ struct Parted {
 
 /// Pulls a bar at its ends until it has parted and beyond.
 Parted part(const Scene& s, double way) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   m.take_stock();
   const Cohesive law(*s.cracks[0].traction);

@@ -4,6 +4,7 @@
 
 #include "kernels/sort_particles.hpp"
 #include "kernels/tally.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -30,7 +31,7 @@ TEST(LeavingTheGrid, StopsWithAClosedAccount) {
       s.bodies = {body("block", Rectangle{{0, 0}, {8 * h, 6 * h}})};
       s.bodies[0].velocity = v;
       s.stress_update = update;
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       Account account(m);
       const double first = mass_of(m);
@@ -71,7 +72,7 @@ TEST(Compression, KeepsDetFPositive) {
   plate.region = Rectangle{{0, 8 * h}, {8 * h, 9 * h}};
   plate.velocity[1] = {-speed, [](double t) { return std::min(1., t / 0.1); }, ""};
   s.grips = {plate};
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   Account account(m);
   double least = 1;
@@ -95,7 +96,7 @@ TEST(InvertedCell, IsCaughtOrPrevented) {
         s.cfl = cfl;
         s.fracture.asked = true;  // makes both laws keep F
         s.cracks = {crack("far", {{-6 * h, -6 * h}, {-5 * h, -6 * h}})};
-        const exec::Space space;
+        const ChosenSpace space;
         Simulation m(s, space);
         auto& p = m.state.particles;
         const double c = wave_speed(s.materials[0]);
@@ -137,7 +138,7 @@ TEST(IsolatedParticles, FlyOnTheirOwn) {
       s.bodies[0].particles_per_cell = 1;
       s.body_force[0] = constant(g.x);
       s.body_force[1] = constant(g.y);
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       auto& p = m.state.particles;
       ASSERT_EQ(p.count(), 200);
@@ -182,7 +183,7 @@ TEST(SingleRow, BendsWithoutHourglass) {
       s.transfer = transfer;
       s.bodies = {body("strip", Rectangle{{0, 0}, {cells * h, thick}})};
       s.bodies[0].particles_per_cell = per_cell;
-      const exec::Space space;
+      const ChosenSpace space;
       Simulation m(s, space);
       auto& p = m.state.particles;
       const int count = cells * per_cell;

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "tests/physics/plates.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -47,7 +48,7 @@ TEST(Star, StandsTensionOnAllSides) {
     for (const Vec2 middle : {on_a_node, beside_one})
       for (const Transfer transfer : {Transfer::flip, Transfer::fmpm}) {
         const Scene s = star(arms, middle, transfer);
-        const exec::Space space;
+        const ChosenSpace space;
         Simulation m(s, space);
         Account account(m);
         double fastest = 0;
@@ -76,7 +77,7 @@ TEST(Star, StandsTensionOnAllSides) {
 /// m, by which the particles within a coarse cell of the middle have moved away from it, the mean over the time in
 /// which waves go through the plate ten times.
 double opening(const Scene& s, const Vec2 middle) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   const double end = 10 * 24 * coarse / wave_speed(solid());
   double sum = 0;

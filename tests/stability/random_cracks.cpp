@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "tests/spaces.hpp"
 #include "tests/stability/crack_sets.hpp"
 #include "tests/stability/gates.hpp"
 
@@ -59,7 +60,7 @@ Scene random_scene(std::uint64_t seed) {
 
 Outcome pull_and_press(std::uint64_t seed) {
   const Scene s = random_scene(seed);
-  const exec::Space space(exec::Kind::serial, 1);
+  const ChosenSpace space;
   Simulation m(s, space);
   Account account(m);
   Outcome o;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernels/dispatch.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -61,7 +62,7 @@ Turned spin(LawKind law, Plane plane, ShapeFunction shape, int cells, int steps)
   s.cfl = 2;
   s.end_time = steps * dt;
   s.bodies[0].spin = 2 * std::numbers::pi / s.end_time;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   auto& p = m.state.particles;
   // the radius of as many particles as there are

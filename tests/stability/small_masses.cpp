@@ -2,6 +2,7 @@
 // the noise of crossings.
 #include "kernels/sort_particles.hpp"
 #include "tests/program.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -40,7 +41,7 @@ struct Thrown {
 /// part `off` of its mass bears a force of the stress times the particle's section, however small that part is.
 Thrown step_near_an_edge(ShapeFunction shape, StressUpdate update, double off) {
   const Scene s = lone_particle(shape, update);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   const double reach = shape == ShapeFunction::linear ? 1 : 1.5;
   put(m, {reach - off, 0.5});
@@ -136,7 +137,7 @@ Felt meet_nodes(Scene s, Vec2 v) {
   s.pic_fraction = 0.5;
   s.materials[0].E = 10;  // waves of 0.1 m/s
   s.dt_max = 0.125;       // a whole number of steps to each node
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   put(m, {0, 0});
   auto& p = m.state.particles;
@@ -204,7 +205,7 @@ Crossed draw_bar(ShapeFunction shape) {
     s.grips.push_back(g);
   }
   s.limits.energy_growth = 1e9;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i) {

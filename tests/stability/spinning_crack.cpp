@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "io/crack_opening.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -28,7 +29,7 @@ struct Means {
 };
 
 Means spin(const Scene& scene) {
-  const exec::Space space;
+  const test::ChosenSpace space;
   Simulation m(scene, space);
   Means mean;
   int samples = 0;
@@ -88,7 +89,7 @@ double spread(const Particles<double, 2>& p) {
 /// An edge crack, bonded, so that the body does not know of it; its mouth is 1.5 cells outside of the disk.
 TEST(SpinningCrack, TurnsWithItsBody) {
   const double h = 2 * mm, omega = 10.2;
-  const exec::Space space;
+  const test::ChosenSpace space;
   Scene scene = shipped("spinning_crack", {R"(grid.cell="2 mm")", R"(contact.law="bonded")", crack_setting(4, 23, 0)});
   scene.deterministic = true;
   scene.end_time = 2 * std::numbers::pi / omega;

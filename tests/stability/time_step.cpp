@@ -3,6 +3,7 @@
 // waves that grow begin as rounding, and for hundreds of steps nothing is amiss yet, as these figures show.) No number
 // that is none is ever left behind.
 #include "kernels/tally.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -32,7 +33,7 @@ struct Ran {
 };
 
 Ran beat(const Scene& s, int steps) {
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "tests/physics/plates.hpp"
 #include "tests/physics/strip.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -46,7 +47,7 @@ double start_of_moved_tip(double cell, Vec2 cells) {
   s.growth = GrowthRule{};
   s.growth->criterion = GrowthCriterion::critical_j;
   s.growth->toughness = 5e3;
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   while (m.state.events.empty() && !m.finished())
     m.step();
@@ -99,7 +100,7 @@ Scene creeping_crack(double held, double speed) {
 TEST(MovingTip, KeepsItsJAndLeavesFacesWithoutTraction) {
   constexpr double held = 0.3e-3;
   const Scene s = creeping_crack(held, 40);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   std::vector<double> J;
   double length = 0, returned = 0, off = 0, front = 0;

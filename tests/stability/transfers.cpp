@@ -5,6 +5,7 @@
 
 #include "kernels/dispatch.hpp"
 #include "kernels/particle_to_grid.hpp"
+#include "tests/spaces.hpp"
 #include "tests/stability/gates.hpp"
 
 namespace riven {
@@ -84,7 +85,7 @@ TEST(NullSpace, StressesThatNoNodeFeelsMoveNothing) {
     s.bodies[0].particles_per_cell = 3;
     s.stress_update = StressUpdate::usl;
     use(s, t);
-    const exec::Space space;
+    const ChosenSpace space;
     Simulation m(s, space);
     const Eigen::VectorXd noise = unfelt_stresses(m);
     ASSERT_GT(noise.norm(), 0.1 * std::sqrt(noise.size()));
@@ -140,7 +141,7 @@ Swung swing(const TransferCase& t) {
     s.symmetry.push_back({axis, axis == 0 ? 1 : h, -1});
   }
   use(s, t);
-  const exec::Space space;
+  const ChosenSpace space;
   Simulation m(s, space);
   auto& p = m.state.particles;
   for (int i = 0; i < p.count(); ++i)
