@@ -32,10 +32,10 @@ struct CracksOfTile {
     constexpr int room = 8;
     int known[room], count = 0, last = -1;
     const int i0 = tile % lattice.tiles_x() * Lattice::tile, j0 = tile / lattice.tiles_x() * Lattice::tile;
-    for (int j = j0 - 1; j <= j0 + Lattice::tile; ++j)
-      for (int i = i0 - 1; i <= i0 + Lattice::tile; ++i) {
-        const bool inside = i >= 0 && j >= 0 && i < lattice.nx && j < lattice.ny;
-        const int cell = inside ? cell_index[j * lattice.nx + i] : -1;
+    const int i1 = after(i0, lattice.nx), j1 = after(j0, lattice.ny);
+    for (int j = j0 > 0 ? j0 - 1 : 0; j < j1; ++j)
+      for (int i = i0 > 0 ? i0 - 1 : 0; i < i1; ++i) {
+        const int cell = cell_index[j * lattice.nx + i];
         if (cell < 0)
           continue;
         for (int s = cell_start[cell]; s < cell_start[cell + 1]; ++s) {
@@ -54,6 +54,10 @@ struct CracksOfTile {
         }
       }
   }
+
+ private:
+  /// Behind the last cell, along an axis of n, that particles of a tile from `first` on may be in.
+  static RIVEN_FN int after(int first, int n) { return first + Lattice::tile < n ? first + Lattice::tile + 1 : n; }
 };
 
 /// Tiles that can reach a marked cell, and the cracks that are seen there.
@@ -71,10 +75,11 @@ void mark_tiles(const exec::Space& space, const Lattice& lattice, const Cracks& 
   fields.marked_tiles.renew(used);
   int* const list = exec::data_to_fill(fields.marked_tiles);
   exec::end_scan(listed, [=] RIVEN_KERNEL(long t, int before) {
-    if (marked[t]) {
-      list[before] = static_cast<int>(t);
-      marked[t] = before + 1;
-    }
+    if (marked[t] == 0)
+      return 0;
+    list[before] = static_cast<int>(t);
+    marked[t] = before + 1;
+    return 1;
   });
 
   const CracksOfTile seen{lattice, exec::data(std::as_const(fields.cell_index)),
@@ -92,7 +97,10 @@ void mark_tiles(const exec::Space& space, const Lattice& lattice, const Cracks& 
   fields.tile_crack_start.renew(used + 1);
   fields.tile_crack.renew(total);
   int *const start = exec::data_to_fill(fields.tile_crack_start), *const crack = exec::data_to_fill(fields.tile_crack);
-  exec::end_scan(cracks_seen, [=] RIVEN_KERNEL(long m, int before) { start[m] = before; });
+  exec::end_scan(cracks_seen, [=] RIVEN_KERNEL(long m, int before) {
+    start[m] = before;
+    return count[m];
+  });
   exec::launch(space, 1, [=] RIVEN_KERNEL(long) { start[used] = total; });
   exec::launch_some(space, used, tiles_of_task, [=] RIVEN_KERNEL(long m) {
     int at = start[m];
@@ -107,6 +115,11 @@ struct NodeNeeds {
     return candidates += o.candidates, slots += o.slots, thirds += o.thirds, *this;
   }
 };
+
+/// Of a node that sees so many cracks.
+RIVEN_FN NodeNeeds needs_of(int seen) {
+  return {seen, (1 << (seen < most_held ? seen : +most_held)) - 1, seen > 2};
+}
 
 /// The cracks whose segments are near to a node, as fill_bins() lists these.
 struct CracksOfNode {
@@ -125,7 +138,7 @@ struct CracksOfNode {
   RIVEN_FN NodeNeeds needs(long node) const {
     int n = 0;
     each(node, [&](int, int) { ++n; });
-    return {n, (1 << (n < most_held ? n : +most_held)) - 1, n > 2};
+    return needs_of(n);
   }
 };
 
@@ -161,6 +174,7 @@ void list_candidates(const exec::Space& space, const Lattice& lattice, const Cra
     node[f] = here;
     candidate_start[f] = before.candidates;
     extra[here.node] = before.slots;
+    return needs_of(seen);
   });
   exec::launch(space, 1, [=] RIVEN_KERNEL(long) {
     candidate_start[flagged] = all.candidates;

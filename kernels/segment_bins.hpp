@@ -101,11 +101,13 @@ inline void fill_bins(const exec::Space& space, const Lattice& lattice, const Cr
   int *const place = exec::data_to_fill(bins.place), *const start = exec::data_to_fill(bins.start),
              *const segment = exec::data_to_fill(bins.segment), *const end = exec::data_to_fill(ends);
   exec::end_scan(used, [=] RIVEN_KERNEL(long p, const detail::PlacesUsed& before) {
-    if (index[p] < 0)
-      return;
+    const int here = index[p] + 1;
+    if (here == 0)
+      return detail::PlacesUsed{};
     place[before.places] = static_cast<int>(p);
     start[before.places] = end[before.places] = before.segments;
     index[p] = before.places;
+    return detail::PlacesUsed{1, here};
   });
   exec::launch(space, 1, [=] RIVEN_KERNEL(long) { start[listed] = total; });
   exec::launch_some(space, segments, segments_of_task, [=] RIVEN_KERNEL(long k) {

@@ -70,7 +70,8 @@ Scan<T, Of> begin_scan(const Space& space, long n, const Of& of) {
   return scan;
 }
 
-/// put(i, sum of those before i) for all i. What put() writes may be what of(i), but of no other item, reads.
+/// put(i, sum of those before i) for all i, which returns of(i) once more. What it writes may be what of(i), but of no
+/// other item, reads.
 template <class T, class Of, class Put>
 void end_scan(const Scan<T, Of>& scan, const Put& put) {
   const long n = scan.n;
@@ -88,11 +89,7 @@ void end_scan(const Scan<T, Of>& scan, const Put& put) {
           T sum = before[c];
           for (long k = 0; k < t; ++k)
             sum += own.sum[k];
-          detail::each_of_piece(n, c, t, [&](long i) {
-            const T item = of(i);
-            put(i, sum);
-            sum += item;
-          });
+          detail::each_of_piece(n, c, t, [&](long i) { sum += put(i, sum); });
         });
       });
 }

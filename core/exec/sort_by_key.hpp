@@ -24,7 +24,11 @@ inline void sort_by_key(const Space& space, const char* label, const Array<int>&
   int *begin = data(start), *place = data_to_fill(order);
   launch(space, n, [=] RIVEN_KERNEL(long i) { atomic_add(begin[key[i]], 1); });
   const auto counts = begin_scan<int>(space, count + 1, [=] RIVEN_KERNEL(long k) { return begin[k]; });
-  end_scan(counts, [=] RIVEN_KERNEL(long k, int before) { begin[k] = before; });
+  end_scan(counts, [=] RIVEN_KERNEL(long k, int before) {
+    const int own = begin[k];
+    begin[k] = before;
+    return own;
+  });
   // threads fill the places of a key in any order, from its begin on; then they are put in theirs
   launch(space, n, [=] RIVEN_KERNEL(long i) { place[atomic_add(begin[key[i]], 1)] = static_cast<int>(i); });
   launch(space, count, [=] RIVEN_KERNEL(long k) {

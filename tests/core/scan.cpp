@@ -23,10 +23,12 @@ TEST(Scan, SumsWhatIsBeforeEachItem) {
           numbers[i] = static_cast<int>(i % 7 - 2);
         const auto of = [number = numbers.data()](long i) { return Two{number[i], i}; };
         const auto scan = begin_scan<Two>(space, n, of);
-        end_scan(scan, [number = numbers.data(), a = first.data(), b = second.data()](long i, const Two& before) {
+        end_scan(scan, [=, number = numbers.data(), a = first.data(), b = second.data()](long i, const Two& before) {
+          const Two own = of(i);
           number[i] = -1;
           a[i] = before.a;
           b[i] = before.b;
+          return own;
         });
         int sum = 0;
         for (long i = 0; i < n; ++i) {

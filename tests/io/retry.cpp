@@ -182,7 +182,8 @@ TEST(Retry, TheFailureAfterTheLastOneEndsTheRunAlsoWhenItIsTakenUpAgain) {
   ASSERT_EQ(first.summary["retries"].size(), 2u);
   EXPECT_DOUBLE_EQ(first.summary["retries"][1]["cfl"], 0.68 * 0.999 * 0.999);
   EXPECT_EQ(first.m.state.events.size(), 2u);
-  const Outcome again = riven("run --quiet --restart " + results.string(), folder);
+  const std::string space = exec::name(test::ChosenSpace().kind());
+  const Outcome again = riven("run --quiet --exec " + space + " --restart " + results.string(), folder);
   EXPECT_EQ(again.code, 3) << again.errors;
   EXPECT_EQ(again.errors.find("retry"), std::string::npos) << again.errors;
   const auto summary = nlohmann::json::parse(sample::text_of(results / "summary.json"));
