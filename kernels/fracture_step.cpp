@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/exec/parallel.hpp"
 #include "core/fracture/growth.hpp"
@@ -24,6 +25,9 @@ constexpr double fastest_fields = 0.6;
 
 /// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
+
+/// Cells, the contour that says how J is shared out where a larger one is crossed or bent.
+constexpr double mixing_contour = 4;
 
 /// Cells around a contour whose particles have a part in what is found: those of faces beside it, and how far particles
 /// have moved since they were sorted.
@@ -47,6 +51,8 @@ struct Due {
   double acting = 1;        ///< tips that the contour takes for this one: itself, and those too near that run its way
   bool settled = false;     ///< all of its edges lie in the solid
   bool to_draw_in = false;  ///< some do not, and have room to be drawn in
+  bool mixing = false;      ///< J is known, and this contour is to say how it is shared out
+  bool to_mix = false;      ///< the next one is to
 };
 
 template <class Real>
@@ -80,12 +86,19 @@ class JSearch {
       each("J to K", due.size(), [&](size_t k) {
         add_bridges(s_, m_.bridges, places_, tasks[k]);
         draw_in(due[k], tasks[k]);
-        if (!due[k].to_draw_in)
+        if (due[k].mixing)
+          mix(due[k], tasks[k]);
+        else if (!due[k].to_draw_in)
           settle(due[k], tasks[k]);
       });
       for (size_t k = 0; k < due.size(); ++k)
         note(due[k], tasks[k]);
-      std::erase_if(due, [](const Due& d) { return !d.to_draw_in; });
+      std::erase_if(due, [](const Due& d) { return !d.to_draw_in && !d.to_mix; });
+      for (Due& d : due)
+        if (std::exchange(d.to_mix, false)) {
+          d.mixing = true;
+          std::fill_n(d.most, 4, 0.5 * mixing_contour * m_.scene.cell);
+        }
     }
   }
 
@@ -187,6 +200,8 @@ class JSearch {
   }
 
   void note(const Due& d, const TipTask& task) {
+    if (d.mixing)
+      return;
     if (d.in_cell)
       count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
     if (d.to_draw_in) {
@@ -199,7 +214,7 @@ class JSearch {
     m_.fracture.crossed += task.sums.crossed;
   }
 
-  void settle(const Due& d, const TipTask& task) const {
+  void settle(Due& d, const TipTask& task) const {
     Tip& tip = *d.tip;
     const TipSums& sums = task.sums;
     const Vec2 J = (1 / d.acting) * (sums.J + sums.inertia + sums.faces);
@@ -212,11 +227,12 @@ class JSearch {
     tip.sound = d.settled;
     for (int e = 0; e < 4; ++e)
       tip.reach[e] = task.domain.reach[e] / m_.scene.cell;
-    share(tip, task, d.acting);
+    share(d, task);
   }
 
   /// J to the modes: by the interaction integral where that holds, else by the opening.
-  void share(Tip& tip, const TipTask& task, double acting) const {
+  void share(Due& d, const TipTask& task) const {
+    Tip& tip = *d.tip;
     const PlaneElasticity& solid = *task.solid;
     const double none = std::numeric_limits<double>::quiet_NaN();
     const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell, task.sums.whole);
@@ -224,12 +240,13 @@ class JSearch {
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
     const RunningTip rest(solid, 0);
-    const bool usable = task.interaction && !task.sums.crossed && !task.sums.bent;
-    if (usable) {
+    d.to_mix = false;
+    if (usable(task)) {
       const RunningTip& running = task.running;
-      tip.M_I = solid.mu * task.sums.interaction[0] / (running.A_I * acting);
-      tip.M_II = solid.mu * task.sums.interaction[1] / (running.A_II * acting);
-      const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, {tip.M_I, tip.M_II});
+      const StressIntensity M = by_interaction(d, task);
+      tip.M_I = M.I;
+      tip.M_II = M.II;
+      const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, M);
       tip.K_I = K.I;
       tip.K_II = K.II;
       // the intensities at rest that release as much
@@ -242,7 +259,34 @@ class JSearch {
       const StressIntensity drive = share_out(solid, tip.J, 0, opening);
       tip.drive_I = drive.I;
       tip.drive_II = drive.II;
+      d.to_mix = task.interaction && half_ > 0.5 * mixing_contour * m_.scene.cell;
     }
+    tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
+  }
+
+  static bool usable(const TipTask& task) { return task.interaction && !task.sums.crossed && !task.sums.bent; }
+
+  static StressIntensity by_interaction(const Due& d, const TipTask& task) {
+    const double of_all = task.solid->mu / d.acting;
+    return {of_all * task.sums.interaction[0] / task.running.A_I,
+            of_all * task.sums.interaction[1] / task.running.A_II};
+  }
+
+  /// J as it stands, in the proportion of the modes that a contour near the tip finds.
+  void mix(Due& d, const TipTask& task) const {
+    d.to_draw_in = false;
+    if (!d.settled || !usable(task))
+      return;
+    Tip& tip = *d.tip;
+    const PlaneElasticity& solid = *task.solid;
+    const RunningTip &running = task.running, rest(solid, 0);
+    const StressIntensity M = by_interaction(d, task), K = share_in_proportion(solid, tip.J, tip.speed, M);
+    tip.K_I = K.I;
+    tip.K_II = K.II;
+    const StressIntensity drive = share_in_proportion(
+        solid, tip.J, 0, {M.I * std::sqrt(running.A_I / rest.A_I), M.II * std::sqrt(running.A_II / rest.A_II)});
+    tip.drive_I = drive.I;
+    tip.drive_II = drive.II;
     tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
   }
 

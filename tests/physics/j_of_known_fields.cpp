@@ -2,12 +2,14 @@
 // integral's own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "core/fracture/place_domain.hpp"
 #include "kernels/crack_step.hpp"
+#include "kernels/fracture_step.hpp"
 #include "kernels/j_integral.hpp"
 #include "tests/physics/scenes.hpp"
 #include "tests/spaces.hpp"
@@ -183,6 +185,30 @@ TEST(JOfKnownFields, IsThatOfTheTipAloneAcrossAShutCrack) {
     const TipSums s = sums_at(m, {0, 0.1}, {1, 0}, 8);
     // what fits over a cell and a half make of fields that vary as 1/r: 1.5 % at 2.3 cells, 3 % at 1.7
     EXPECT_NEAR((s.J.x + s.faces.x) * solid.E, 1.25, 0.02 * 1.25) << cut;
+  }
+}
+
+// The interaction integral is blind where another crack passes; a contour between that one and the tip still tells the
+// modes apart, though the faces do not say that they have slid.
+TEST(JOfKnownFields, IsSharedOutNearTheTipWhereAnotherCrackCrossesTheContour) {
+  const test::ChosenSpace space;
+  for (const double side : {1.0, -1.0}) {
+    Scene scene = square(Plane::strain, {crack("target", {{-13 * side, 0.1}, {0, 0.1}}),
+                                         crack("cut", {{3.5 * side, -20}, {3.5 * side, 20}})});
+    scene.contact.law = ContactLaw::ignored;  // the fields are laid without the opening that goes with them
+    scene.fracture.contour = 8;
+    Simulation m(scene, space);
+    const PlaneElasticity solid(scene.materials[0], scene.plane);
+    lay(m, [&](Vec2 x) { return near_tip(solid, x - Vec2{0, 0.1}, {side, 0}, 1, 0.5); });
+    m.state.clock.dt = scene.end_time;  // a row is due
+    find_j_and_k(m);
+    const Tip& tip = *std::find_if(m.state.tips.begin(), m.state.tips.end(), [](const Tip& x) { return x.open; });
+    EXPECT_TRUE(tip.crossed);
+    EXPECT_TRUE(std::isnan(tip.M_I)) << "the contour that gives J does not tell";
+    EXPECT_NEAR(tip.O_II, 0, 1e-9) << "nor do the faces";
+    EXPECT_NEAR(tip.K_II / tip.K_I, 0.5, 0.01);
+    EXPECT_NEAR((tip.K_I * tip.K_I + tip.K_II * tip.K_II) / solid.E, tip.J, 1e-9 * tip.J);
+    EXPECT_NEAR(tip.release, tip.J, 1e-9 * tip.J);
   }
 }
 
