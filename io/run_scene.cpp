@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <future>
 #include <optional>
 
 #include "core/error.hpp"
@@ -116,6 +117,7 @@ class Run {
   /// Takes up the last good state with smaller time steps. A checkpoint says so before any result is taken back:
   /// however the run ends, what goes on from it goes on with these.
   void go_back(const Error& e) {
+    finish_frame();
     const Clock failed = m_.state.clock;
     RunSoFar back = last_good();
     Clock& clock = m_.state.clock;
@@ -209,12 +211,27 @@ class Run {
     ++between_[which].calls;
   }
 
+  /// A device computes on while the host, which has little else to do, writes a copy.
   void write_frame() {
-    timed(frames, [&] { frames_->write(m_.state.clock.time, m_.state.particles, m_.state.cracks); });
+    timed(frames, [&] {
+      finish_frame();
+      const double time = m_.state.clock.time;
+      if (!m_.space.on_device())
+        return frames_->write(time, m_.state.particles, m_.state.cracks);
+      writing_ = std::async(std::launch::async, [this, time, particles = m_.state.particles, cracks = m_.state.cracks] {
+        frames_->write(time, particles, cracks);
+      });
+    });
+  }
+  /// Before anything else is written or read back. Throws what went wrong with the frame.
+  void finish_frame() {
+    if (writing_.valid())
+      writing_.get();
   }
 
   void write_checkpoint() {
     timed(checkpoints, [&] {
+      finish_frame();
       checkpoints_.write(m_, {wall_seconds(), frames_->times(), so_far_.frame_interval, so_far_.frames_due,
                               record_->rows(), so_far_.retries});
     });
@@ -225,6 +242,7 @@ class Run {
     const std::string folder = options_.folder.string(), by = stop_.by();
     write_checkpoint();
     progress_->finish();
+    finish_frame();
     if (frames_->times().back() < m_.state.clock.time)
       write_frame();
     close("interrupted", "interrupted by " + by);
@@ -235,6 +253,7 @@ class Run {
   }
 
   Summary close(const char* status, const std::string& message) {
+    finish_frame();
     frames_->finish();
     if (events_)
       events_->write(m_.state.events, m_.state.cracks);
@@ -256,6 +275,7 @@ class Run {
   RunSoFar so_far_;
   CheckpointStore checkpoints_;
   std::optional<FrameWriter> frames_;
+  std::future<void> writing_;  ///< a frame
   std::optional<Recorder<Real>> record_;
   std::optional<EventLog> events_;
   std::optional<Progress> progress_;

@@ -28,7 +28,7 @@ for part in ${*:-tests physics stability sanitizer throughput large cracks}; do
     stability) RIVEN_TEST_EXEC=cuda "$build/tests/test_stability" ;;
     sanitizer)  # accesses out of bounds, and threads of a team that do not wait for each other
       for tool in memcheck racecheck; do
-        compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_kernels" --gtest_filter='Device.*'
+        RIVEN_TEST_EXEC=cuda compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_kernels"
         compute-sanitizer --tool "$tool" --error-exitcode 1 "$build/tests/test_physics" \
           --gtest_filter='Spaces.AgreeOnAPlateWithGrowingCracks'
       done
