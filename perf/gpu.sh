@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
 # Tests and measures the CUDA space on the GPU of this machine: ./perf/gpu.sh [PART]...
-# Parts: tests, physics, stability, sanitizer, throughput, large, cracks; all without arguments. Needs nvcc,
-# compute-sanitizer and the packages of packages.txt; `large` 64 GiB of memory.
+# All parts without arguments. Needs nvcc, compute-sanitizer and the packages of packages.txt; `large` 64 GiB of memory.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/cuda
+all="tests physics stability sanitizer throughput large cracks"
+parts=${*:-$all}
+for part in $parts; do
+  [[ " $all " == *" $part "* ]] || { echo "unknown part '$part'; there are: $all" >&2; exit 2; }
+done
 cmake --preset cuda >/dev/null
 cmake --build "$build" -j "$(nproc)" --target riven riven-perf \
   test_core test_kernels test_physics test_io test_stability
@@ -15,7 +19,7 @@ measure() {
   "$build/riven-perf" throughput --threads "$(nproc)" --only "$1"
 }
 
-for part in ${*:-tests physics stability sanitizer throughput large cracks}; do
+for part in $parts; do
   case $part in
     tests)  # what compares spaces, the device's among them, over long runs, too; and what else is quick, there
       "$build/tests/test_core"
@@ -36,9 +40,5 @@ for part in ${*:-tests physics stability sanitizer throughput large cracks}; do
     throughput) measure device,block ;;  # 1, 4 and 16 million particles, and the processor's rate
     large) measure device-large ;;       # 64 million
     cracks) measure device-cracks ;;     # 200 cracks among 16 million
-    *)
-      echo "unknown part '$part': tests, physics, stability, sanitizer, throughput, large or cracks" >&2
-      exit 2
-      ;;
   esac
 done
