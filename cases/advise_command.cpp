@@ -17,7 +17,7 @@ namespace riven {
 
 namespace {
 
-struct Options {
+struct AdviseArguments {
   std::string scene, folder, within;
   std::vector<std::string> set, results;
   int threads = 0;
@@ -25,7 +25,7 @@ struct Options {
 };
 
 /// The ladder as members of a study of the cell.
-study::Study study_of(const Options& o, const std::vector<study::Rung>& ladder) {
+study::Study study_of(const AdviseArguments& o, const std::vector<study::Rung>& ladder) {
   study::Study s;
   s.path = o.scene;
   s.set = o.set;
@@ -53,7 +53,7 @@ void print_laws(const std::vector<study::ErrorLaw>& laws, double finest, const s
                100 * law.error(a.rung.cell));
 }
 
-void print_advice(const Options& o, const study::Advice& a, double tolerance) {
+void print_advice(const AdviseArguments& o, const study::Advice& a, double tolerance) {
   std::vector<std::string> all = o.set;
   all.insert(all.end(), a.rung.set.begin(), a.rung.set.end());
   fmt::print("#\n# {} {:.3g} %: expected error {:.2g} % ({}), predicted time {:.3g} s, {} of memory\n",
@@ -64,8 +64,9 @@ void print_advice(const Options& o, const study::Advice& a, double tolerance) {
   fmt::print("# {}\n{}", study::as_command(o.scene, all), study::settings_as_toml(a.rung.set));
 }
 
-std::vector<study::Record> climb(const Options& o, const std::string& file, const std::vector<study::Rung>& ladder,
-                                 const study::Store& store, std::vector<std::string>& histories) {
+std::vector<study::Record> climb(const AdviseArguments& o, const std::string& file,
+                                 const std::vector<study::Rung>& ladder, const study::Store& store,
+                                 std::vector<std::string>& histories) {
   const study::Study s = study_of(o, ladder);
   const study::Members members = study::expand(s, file);
   std::vector<study::Record> records = study::run_members(s, file, members.runs, store, [&](const auto& a) {
@@ -81,7 +82,7 @@ std::vector<study::Record> climb(const Options& o, const std::string& file, cons
   return records;
 }
 
-void run(const Options& o) {
+void run(const AdviseArguments& o) {
   const double tolerance = parse_tolerance(o.within);
   const std::string file = find_file(Shipped::scene, o.scene);
   const Scene scene = read_scene(file, o.set);
@@ -106,7 +107,7 @@ void run(const Options& o) {
 }  // namespace
 
 void add_advise(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<AdviseArguments>();
   CLI::App* command =
       app.add_subcommand("advise", "finds the cell with which a scene comes within a tolerance, by quick coarse runs");
   command->add_option("scene", o->scene, "a scene file, or the name of a shipped scene")->required();

@@ -102,14 +102,14 @@ void print_cost_of_j(const SimulationOf<Real>& m) {
                1e6 * task->seconds / static_cast<double>(m.fracture.evaluations));
 }
 
-struct Options {
+struct RunArguments {
   SceneOptions scene;
   std::string folder, restart, wall_limit;
   bool quiet = false, profile = false;
 };
 
 template <class Real>
-void run(const Options& o, const Scene& scene, const CheckpointFile* from) {
+void run(const RunArguments& o, const Scene& scene, const CheckpointFile* from) {
   RunOptions options{.folder = o.folder, .quiet = o.quiet, .restart = from};
   if (o.folder.empty())
     options.folder = from ? from->path().parent_path() : std::filesystem::path("results") / scene.name;
@@ -147,7 +147,7 @@ Scene choose_scene(const SceneOptions& o, const CheckpointFile* from) {
 }  // namespace
 
 void add_run(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "runs a scene");
   o->scene.add_to(*command, false);
   command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+struct StudyArguments {
   std::string study, folder, within, result;
   int threads = 0;
   bool untimed = false, quiet = false, list = false;
@@ -31,7 +31,7 @@ void list_studies() {
     fmt::print("{:<16} {}\n", name, study::read_study(shipped_file(Shipped::study, name)->string()).title);
 }
 
-study::Study read(const Options& o) {
+study::Study read(const StudyArguments& o) {
   study::Study s = study::read_study(find_file(Shipped::study, o.study));
   if (o.untimed)
     s.timing = false;
@@ -87,7 +87,7 @@ void draw(const fs::path& folder) {
     fs::remove(log);
 }
 
-void run(const Options& o) {
+void run(const StudyArguments& o) {
   if (o.list) {
     list_studies();
     return;
@@ -119,7 +119,7 @@ void run(const Options& o) {
 }  // namespace
 
 void add_study(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StudyArguments>();
   CLI::App* command = app.add_subcommand("study", "runs a scene over a grid of choices: what accuracy costs in time");
   command->add_option("study", o->study, "a study file, or the name of a shipped study");
   command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");

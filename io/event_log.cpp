@@ -14,7 +14,7 @@ namespace riven {
 
 namespace {
 
-constexpr std::string_view header =
+constexpr std::string_view column_names =
     "time [s],step,crack,end,event,x [m],y [m],other crack,K_I [Pa m^0.5],K_II [Pa m^0.5],J [J/m^2],speed [m/s]\n";
 
 const char* name(CrackEvent::Kind kind) {
@@ -50,7 +50,7 @@ std::string line(const CrackEvent& e, const Cracks& cracks) {
 EventLog::EventLog(std::filesystem::path path, const std::vector<CrackEvent>& events, const Cracks& cracks)
     : path_(std::move(path)), written_(events.size()) {
   if (!events.empty()) {
-    std::string text(header);
+    std::string text(column_names);
     for (const CrackEvent& e : events)
       text += line(e, cracks);
     write_file(path_, text);
@@ -59,7 +59,7 @@ EventLog::EventLog(std::filesystem::path path, const std::vector<CrackEvent>& ev
   if (descriptor_ < 0)
     fail_file(path_, "write the file", errno);
   if (events.empty())
-    append(descriptor_, path_, header);
+    append(descriptor_, path_, column_names);
 }
 
 EventLog::~EventLog() {

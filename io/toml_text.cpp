@@ -11,7 +11,7 @@ namespace riven {
 
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string s = "\"";
   for (const char c : text)
     if (c == '"' || c == '\\')
@@ -27,10 +27,10 @@ std::string key_text(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '-');
   });
-  return bare ? std::string(key) : quoted(key);
+  return bare ? std::string(key) : in_quotes(key);
 }
 
-std::string number(double x) {
+std::string number_text(double x) {
   const std::string s = fmt::format("{}", x);
   return std::isfinite(x) && s.find_first_of(".e") == std::string::npos ? s + ".0" : s;
 }
@@ -67,9 +67,9 @@ std::string toml_value(const toml::node& node) {
     return "[" + s + "]";
   }
   if (node.is_string())
-    return quoted(node.as_string()->get());
+    return in_quotes(node.as_string()->get());
   if (node.is_floating_point())
-    return number(node.as_floating_point()->get());
+    return number_text(node.as_floating_point()->get());
   if (node.is_integer())
     return std::to_string(node.as_integer()->get());
   if (node.is_boolean())

@@ -30,7 +30,7 @@ bool holds(std::string_view text, std::string_view part) {
 }
 
 /// Bytes of the widest vector register that is named.
-int vector_bytes(std::string_view operands) {
+int operand_bytes(std::string_view operands) {
   return holds(operands, "zmm") ? 64 : holds(operands, "ymm") ? 32 : 16;
 }
 
@@ -206,7 +206,7 @@ Instruction classify(std::string_view text) {
   if (type == "sd" || type == "ss")
     lanes = 1;
   else if (type == "pd" || type == "ps")
-    lanes = vector_bytes(operands) / static_cast<int>(type == "pd" ? sizeof(double) : sizeof(float));
+    lanes = operand_bytes(operands) / static_cast<int>(type == "pd" ? sizeof(double) : sizeof(float));
   const int each = flops_of(name.substr(0, name.size() - type_letters));
   i.flops = lanes * each;
   if (each == 2)  // valgrind reads what a fused multiply-add finds in memory lane by lane

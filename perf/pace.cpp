@@ -9,7 +9,7 @@ namespace riven::perf {
 
 namespace {
 
-constexpr int timed_steps = 48;
+constexpr int steps_of_turn = 48;
 
 /// Of all turns, the ratio below which a quarter lies: disturbances mostly add, to the scene more than to the
 /// calibration.
@@ -35,7 +35,7 @@ SceneCost measure_pace(const GateScene& scene, Calibration& calibration, const s
   });
 
   std::vector<std::vector<double>> ratios(tasks.size());
-  for (int turn = 0; turn < timed_steps / scene.steps; ++turn) {
+  for (int turn = 0; turn < steps_of_turn / scene.steps; ++turn) {
     std::fill(seconds.begin(), seconds.end(), 0);
     runner->run(scene.steps);
     const double round = calibration.round_over(std::accumulate(seconds.begin(), seconds.end(), 0.0));

@@ -1,6 +1,8 @@
 # The device for which kernels are compiled beside the host: CUDA's, an emulated one, or none. Sources of a device are
 # those of the host, compiled once more for the other side (RIVEN_SIDE in core/exec/config.hpp). Where there is none but
 # nvcc is found, a test compiles them for CUDA all the same.
+include(CheckCompilerFlag)
+
 set(RIVEN_CUDA "OFF" CACHE STRING
   "The CUDA space: AUTO (where nvcc is found), ON, OFF; EMULATED for tests of it without a GPU")
 set_property(CACHE RIVEN_CUDA PROPERTY STRINGS AUTO ON OFF EMULATED)
@@ -39,6 +41,7 @@ if(RIVEN_DEVICE STREQUAL "ON" OR RIVEN_DEVICE_CHECKED)
   # holds by reference; 128, 177: not reached, not used, where `if constexpr` leaves the rest out.
   target_compile_options(riven_flags INTERFACE "$<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda;--expt-relaxed-constexpr;\
 -diag-suppress=1675,836,128,177;-Xcompiler=-fopenmp,-fno-math-errno;$<$<BOOL:${RIVEN_WERROR}>:-Werror=all-warnings>>")
+  check_compiler_flag(CUDA --Ofast-compile=max RIVEN_NVCC_HAS_FAST_COMPILE)  # nvcc of 12.9 and later
 endif()
 if(NOT RIVEN_DEVICE STREQUAL "OFF")
   target_compile_definitions(riven_flags INTERFACE RIVEN_DEVICE)
@@ -46,6 +49,16 @@ endif()
 if(RIVEN_DEVICE STREQUAL "EMULATED")
   target_compile_definitions(riven_flags INTERFACE RIVEN_DEVICE_EMULATED=1)
 endif()
+
+# riven_check_only(OBJECTS): compiled for what the compiler says of it, never run; hence without optimisation, which
+# leaves calls in place whose stack ptxas cannot tell.
+function(riven_check_only objects)
+  set(quick -Xcompiler=-O0)
+  if(RIVEN_NVCC_HAS_FAST_COMPILE)
+    list(APPEND quick --Ofast-compile=max -Xptxas=--suppress-stack-size-warning)
+  endif()
+  target_compile_options(${objects} PRIVATE "$<$<COMPILE_LANGUAGE:CUDA>:${quick}>")
+endfunction()
 
 # riven_on_device(TARGET LAUNCHING|SERIAL SOURCES...): adds sources of this folder, compiled for the device's side: by nvcc
 # if they launch kernels, by the compiler of the host if they do not.
@@ -56,10 +69,12 @@ function(riven_on_device target launches)
   set(objects ${target}_on_device)
   if(NOT TARGET ${objects})
     add_library(${objects} OBJECT)
+    set_target_properties(${objects} PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(${objects} PRIVATE riven_flags)
     target_compile_definitions(${objects} PRIVATE RIVEN_DEVICE RIVEN_ON_DEVICE)
     if(RIVEN_DEVICE_CHECKED)
       set_target_properties(${objects} PROPERTIES EXCLUDE_FROM_ALL ON)
+      riven_check_only(${objects})
       set_property(GLOBAL APPEND PROPERTY riven_checked_for_cuda ${objects})
     else()
       target_link_libraries(${target} PUBLIC ${objects} $<TARGET_OBJECTS:${objects}>)
