@@ -26,8 +26,9 @@ constexpr double fastest_fields = 0.6;
 /// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
 
-/// Cells, the contour that says how J is shared out where a larger one is crossed or bent.
-constexpr double mixing_contour = 4;
+/// Cells, the contour that says what drives a tip where the interaction integral of a larger one does not hold: it is
+/// crossed or bent, or the tip runs, whose steady fields are about it no farther than waves went while it ran steadily.
+constexpr double near_contour = 4;
 
 /// Cells around a contour whose particles have a part in what is found: those of faces beside it, and how far particles
 /// have moved since they were sorted.
@@ -51,8 +52,8 @@ struct Due {
   double acting = 1;        ///< tips that the contour takes for this one: itself, and those too near that run its way
   bool settled = false;     ///< all of its edges lie in the solid
   bool to_draw_in = false;  ///< some do not, and have room to be drawn in
-  bool mixing = false;      ///< J is known, and this contour is to say how it is shared out
-  bool to_mix = false;      ///< the next one is to
+  bool near = false;        ///< J is known, and this contour is to say what drives the tip
+  bool to_near = false;     ///< the next one is to
 };
 
 template <class Real>
@@ -86,18 +87,18 @@ class JSearch {
       each("J to K", due.size(), [&](size_t k) {
         add_bridges(s_, m_.bridges, places_, tasks[k]);
         draw_in(due[k], tasks[k]);
-        if (due[k].mixing)
-          mix(due[k], tasks[k]);
+        if (due[k].near)
+          settle_near(due[k], tasks[k]);
         else if (!due[k].to_draw_in)
           settle(due[k], tasks[k]);
       });
       for (size_t k = 0; k < due.size(); ++k)
         note(due[k], tasks[k]);
-      std::erase_if(due, [](const Due& d) { return !d.to_draw_in && !d.to_mix; });
+      std::erase_if(due, [](const Due& d) { return !d.to_draw_in && !d.to_near; });
       for (Due& d : due)
-        if (std::exchange(d.to_mix, false)) {
-          d.mixing = true;
-          std::fill_n(d.most, 4, 0.5 * mixing_contour * m_.scene.cell);
+        if (std::exchange(d.to_near, false)) {
+          d.near = true;
+          std::fill_n(d.most, 4, 0.5 * near_contour * m_.scene.cell);
         }
     }
   }
@@ -200,7 +201,7 @@ class JSearch {
   }
 
   void note(const Due& d, const TipTask& task) {
-    if (d.mixing)
+    if (d.near)
       return;
     if (d.in_cell)
       count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
@@ -239,55 +240,49 @@ class JSearch {
     const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
-    const RunningTip rest(solid, 0);
-    d.to_mix = false;
-    if (usable(task)) {
-      const RunningTip& running = task.running;
-      const StressIntensity M = by_interaction(d, task);
+    const bool by_interaction = usable(task);
+    if (by_interaction) {
+      const StressIntensity M = interaction(d, task);
       tip.M_I = M.I;
       tip.M_II = M.II;
-      const StressIntensity K = share_in_proportion(solid, tip.J, tip.speed, M);
-      tip.K_I = K.I;
-      tip.K_II = K.II;
-      // the intensities at rest that release as much
-      tip.drive_I = tip.M_I * std::sqrt(running.A_I / rest.A_I);
-      tip.drive_II = tip.M_II * std::sqrt(running.A_II / rest.A_II);
+      set_intensity(tip, solid, share_in_proportion(solid, tip.J, tip.speed, M), at_rest(task, M));
     } else {
       tip.M_I = tip.M_II = none;
-      tip.K_I = tip.O_I;
-      tip.K_II = tip.O_II;
-      const StressIntensity drive = share_out(solid, tip.J, 0, opening);
-      tip.drive_I = drive.I;
-      tip.drive_II = drive.II;
-      d.to_mix = task.interaction && half_ > 0.5 * mixing_contour * m_.scene.cell;
+      set_intensity(tip, solid, by_opening, share_out(solid, tip.J, 0, opening));
     }
-    tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
+    d.to_near = task.interaction && half_ > 0.5 * near_contour * m_.scene.cell && (!by_interaction || tip.speed > 0);
+  }
+
+  static void set_intensity(Tip& tip, const PlaneElasticity& solid, StressIntensity K, StressIntensity drive) {
+    tip.K_I = K.I;
+    tip.K_II = K.II;
+    tip.drive_I = drive.I;
+    tip.drive_II = drive.II;
+    tip.release = (drive.I * drive.I + drive.II * drive.II) / solid.E;
   }
 
   static bool usable(const TipTask& task) { return task.interaction && !task.sums.crossed && !task.sums.bent; }
 
-  static StressIntensity by_interaction(const Due& d, const TipTask& task) {
+  static StressIntensity interaction(const Due& d, const TipTask& task) {
     const double of_all = task.solid->mu / d.acting;
     return {of_all * task.sums.interaction[0] / task.running.A_I,
             of_all * task.sums.interaction[1] / task.running.A_II};
   }
 
-  /// J as it stands, in the proportion of the modes that a contour near the tip finds.
-  void mix(Due& d, const TipTask& task) const {
+  /// The intensities of a tip at rest that release as much.
+  static StressIntensity at_rest(const TipTask& task, StressIntensity M) {
+    const RunningTip &running = task.running, rest(*task.solid, 0);
+    return {M.I * std::sqrt(running.A_I / rest.A_I), M.II * std::sqrt(running.A_II / rest.A_II)};
+  }
+
+  /// J as it stands, in the proportion of the modes that a contour near the tip finds, which drives the tip.
+  void settle_near(Due& d, const TipTask& task) const {
     d.to_draw_in = false;
     if (!d.settled || !usable(task))
       return;
     Tip& tip = *d.tip;
-    const PlaneElasticity& solid = *task.solid;
-    const RunningTip &running = task.running, rest(solid, 0);
-    const StressIntensity M = by_interaction(d, task), K = share_in_proportion(solid, tip.J, tip.speed, M);
-    tip.K_I = K.I;
-    tip.K_II = K.II;
-    const StressIntensity drive = share_in_proportion(
-        solid, tip.J, 0, {M.I * std::sqrt(running.A_I / rest.A_I), M.II * std::sqrt(running.A_II / rest.A_II)});
-    tip.drive_I = drive.I;
-    tip.drive_II = drive.II;
-    tip.release = (tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II) / solid.E;
+    const StressIntensity M = interaction(d, task);
+    set_intensity(tip, *task.solid, share_in_proportion(*task.solid, tip.J, tip.speed, M), at_rest(task, M));
   }
 
   SimulationOf<Real>& m_;

@@ -226,11 +226,23 @@ TEST(FractureTables, DISABLED_TwoTips) {
   EXPECT_LT(J, 1.04 * 21954);
 }
 
-TEST(FractureTables, DISABLED_TwoTipsOnQuarterMillimetreCells) {
-  Plate plate("dent", {"grid.cell=0.25 mm"});
+void expect_two_tips_on_quarter_millimetre_cells(std::vector<std::string> settings, double reference) {
+  settings.emplace_back("grid.cell=0.25 mm");
+  Plate plate("dent", settings);
   print("two tips", plate.hold());
   for (const int contour : {4, 8, 16})
-    expect_J(fmt::format("two tips, cells of 0.25 mm, {} cells", contour), plate.tip(contour).J, 20279, 0.03);
+    expect_J(fmt::format("two tips, cells of 0.25 mm, {} cells", contour), plate.tip(contour).J, reference, 0.03);
+}
+
+TEST(FractureTables, DISABLED_TwoTipsOnQuarterMillimetreCells) {
+  expect_two_tips_on_quarter_millimetre_cells({}, 20279);
+}
+
+/// A tenth of the load, as the reference is one of small strains: off by 1.5, 1.1 and 1.0 %, where the whole load,
+/// which moves each end by 0.5 mm above a ligament of 3 mm, gives 4.0, 2.7 and 2.3 %.
+TEST(FractureTables, DISABLED_TwoTipsAtSmallLoadOnQuarterMillimetreCells) {
+  expect_two_tips_on_quarter_millimetre_cells(
+      {"grip.top.velocity_y.value=0.3849 m/s", "grip.bottom.velocity_y.value=-0.3849 m/s"}, 202.79);
 }
 
 }  // namespace
