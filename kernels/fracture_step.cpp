@@ -117,6 +117,7 @@ class JSearch {
 
   std::vector<Vec2> places_of(const std::vector<Due>& due) const {
     std::vector<Vec2> list;
+    list.reserve(due.size());
     for (const Due& d : due)
       list.push_back(position_of(s_.cracks, *d.tip));
     return list;
