@@ -40,7 +40,7 @@ build_targets() {
   local log
   log=$(mktemp)
   if ! cmake --preset "$preset" -DRIVEN_WERROR="${RIVEN_WERROR:-OFF}" -DRIVEN_TIDY="${RIVEN_TIDY:-OFF}" \
-    -DRIVEN_GATE="${RIVEN_GATE:-OFF}" >"$log" 2>&1; then
+    -DRIVEN_GATE="${RIVEN_GATE:-OFF}" ${RIVEN_ARCH:+-DRIVEN_ARCH="$RIVEN_ARCH"} >"$log" 2>&1; then
     cat "$log" >&2
     rm -f "$log"
     exit 1
