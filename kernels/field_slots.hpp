@@ -29,6 +29,11 @@ struct FieldSlots {
   RIVEN_INLINE long of(int node, int field) const {
     return field == 0 || !extra_ ? node : long{nodes_} + extra_[node] + field - 1;
   }
+  /// The same where there are cracks, without a branch.
+  RIVEN_INLINE int among_cracks(int node, int field) const {
+    const int apart = nodes_ + extra_[node] + field - 1;
+    return field == 0 ? node : apart;
+  }
 
  private:
   int nodes_, most_;

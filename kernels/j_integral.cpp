@@ -13,38 +13,11 @@
 #include "kernels/face_integral.hpp"
 #include "kernels/field_slots.hpp"
 #include "kernels/j_band.hpp"
+#include "kernels/j_inertia.hpp"
 
 namespace riven {
 
 namespace {
-
-/// Velocity gradient and acceleration of a particle from the advanced grid.
-struct Motion {
-  Mat2<double> grad{0, 0, 0, 0};
-  Vec2 acceleration;
-};
-
-template <class Shape, class Real>
-Motion motion_of(const State<Real, 2>& s, const FieldSlots& slots, long p) {
-  const Lattice& l = s.grid.lattice;
-  const DomainSetting<Real, 2>& d = s.domains[s.particles.body[p]];
-  const auto a = Shape::axis((s.particles.x[0][p] - l.origin.x) / l.h, d.axis[0]);
-  const auto b = Shape::axis((s.particles.x[1][p] - l.origin.y) / l.h, d.axis[1]);
-  const std::uint32_t word = s.fields.fields[p];
-  Motion m;
-  for (int j = 0; j < Shape::width; ++j)
-    for (int i = 0; i < Shape::width; ++i) {
-      const int node = (b.base + j) * l.nx + a.base + i;
-      const Real* q = s.grid.q.data() + 4 * slots.of(node, CrackFields::field_of(word, j * Shape::width + i));
-      const double S = a.s[i] * b.s[j], gx = a.g[i] * b.s[j] / l.h, gy = a.s[i] * b.g[j] / l.h;
-      m.grad.xx += q[0] * gx;
-      m.grad.xy += q[0] * gy;
-      m.grad.yx += q[1] * gx;
-      m.grad.yy += q[1] * gy;
-      m.acceleration += Vec2{S * q[2], S * q[3]};
-    }
-  return m;
-}
 
 template <class Shape, class Law, class Real>
 class TipSummer {
@@ -95,10 +68,13 @@ class TipSummer {
 
   /// Meanwhile asks for the data of the next tip.
   void sum(TipTask& task, const Patch& patch, Patch& next) const {
-    Chosen chosen;
-    for (const auto [first, last] : patch.stretches)
-      look(task, chosen, first, last, next);
-    sum_chosen(task, chosen, next);
+    Sums sums(task, next);
+    with_flag(task.inertia, [&](auto area) {
+      for (const auto [first, last] : patch.stretches)
+        look<decltype(area)::value>(sums, first, last);
+    });
+    sum_band(sums);
+    sum_area(sums);
     for (int e = 0; e < 4; ++e)
       task.sums.filled[e] /= task.domain.length(e);
   }
@@ -107,36 +83,59 @@ class TipSummer {
   static constexpr int lanes = exec::lanes;
   static constexpr int line = 64 / sizeof(double);  ///< particles of which a line of memory holds one number each
 
-  /// Particles on which q falls.
   struct Chosen {
     static constexpr int most = 512;
     int count = 0;
     int particle[most + lanes];
+
+    bool full() const { return count > most - lanes; }
+    void take(int first, int n, const std::int64_t* taken) {
+      for (int k = 0; k < n; ++k) {
+        particle[count] = first + k;
+        count += static_cast<int>(taken[k]);
+      }
+    }
+    void fill_last_lanes() {
+      if (count > 0)
+        std::fill_n(particle + count, lanes, particle[count - 1]);
+    }
   };
 
-  void look(TipTask& task, Chosen& chosen, int first, int last, Patch& next) const {
-    const JDomain d = task.domain;
+  struct Sums {
+    TipTask& task;
+    Patch& next;
+    Chosen band;  ///< where q falls
+    Chosen area;  ///< where q is not zero
+    // leaves the lists as they are: to zero them would cost as much as to fill them
+    Sums(TipTask& to_fill, Patch& to_ask_for) : task(to_fill), next(to_ask_for) {}
+  };
+
+  /// Chooses particles of the band, and of the area where that is asked for.
+  template <bool Area>
+  void look(Sums& sums, int first, int last) const {
+    const JDomain d = sums.task.domain;
     const double outer[4] = {d.outer(right), d.outer(top), -d.outer(left), -d.outer(bottom)};
     const double inner[4] = {d.inner(right), d.inner(top), -d.inner(left), -d.inner(bottom)};
     for (int at = first; at < last; at += lanes) {
       const double *x = s_.particles.x[0].data() + at, *y = s_.particles.x[1].data() + at;
-      alignas(64) std::int64_t falls[lanes];
+      alignas(64) std::int64_t falls[lanes], weighs[lanes];
       exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
         const double rx = x[k] - d.tip.x, ry = y[k] - d.tip.y;
         const bool inside = (rx > outer[left]) & (rx < outer[right]) & (ry > outer[bottom]) & (ry < outer[top]);
         const bool full = (rx >= inner[left]) & (rx <= inner[right]) & (ry >= inner[bottom]) & (ry <= inner[top]);
         falls[k] = inside & !full;
+        if constexpr (Area)
+          weighs[k] = inside;
       });
-      if (chosen.count > Chosen::most - lanes)
-        sum_chosen(task, chosen, next);
       const int count = std::min(lanes, last - at);
-      for (int k = 0; k < count; ++k) {
-        chosen.particle[chosen.count] = at + k;
-        chosen.count += static_cast<int>(falls[k]);
+      if (sums.band.full())
+        sum_band(sums);
+      sums.band.take(at, count, falls);
+      if constexpr (Area) {
+        if (sums.area.full())
+          sum_area(sums);
+        sums.area.take(at, count, weighs);
       }
-      if (task.inertia)
-        for (int k = 0; k < count; ++k)
-          add_inertia(task, at + k, {x[k] - d.tip.x, y[k] - d.tip.y});
     }
   }
 
@@ -156,49 +155,35 @@ class TipSummer {
     (exec::prefetch_far(arrays.data() + first), ...);
   }
 
-  void sum_chosen(TipTask& task, Chosen& chosen, Patch& next) const {
-    if (chosen.count > 0)
-      std::fill_n(chosen.particle + chosen.count, lanes, chosen.particle[chosen.count - 1]);
-    const int share = next.left() * lanes / (3 * std::max(1, chosen.count)) + 1;
+  void sum_band(Sums& sums) const {
+    Chosen& chosen = sums.band;
+    TipTask& task = sums.task;
+    chosen.fill_last_lanes();
+    const int share = sums.next.left() * lanes / (3 * std::max(1, chosen.count)) + 1;
     Band band;
     for (int k = 0; k < chosen.count; k += lanes) {
       band.take(s_, law_, task.domain, chosen.particle + k, std::min(lanes, chosen.count - k));
-      ask_for(next, share);
+      ask_for(sums.next, share);
       band.add_j(task);
-      ask_for(next, share);
+      ask_for(sums.next, share);
       if (task.interaction)
         with_fields(*task.solid, task.running, [&](const auto& fields) { band.add_interaction(task, fields); });
-      ask_for(next, share);
+      ask_for(sums.next, share);
     }
     band.add_to(task.sums);
     chosen.count = 0;
   }
 
-  void add_inertia(TipTask& task, int i, Vec2 r) const {
-    const double q = task.domain.weight(r);
-    if (!(q > 0))
+  void sum_area(Sums& sums) const {
+    Chosen& chosen = sums.area;
+    if (chosen.count == 0)
       return;
-    const Particles<Real, 2>& p = s_.particles;
-    const Motion motion = motion_of<Shape>(s_, slots_, i);
-    const Mat2<double> F{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]};
-    const Mat2<double> rate = motion.grad * F, H = task.gradient(F);
-    const Vec2 a = motion.acceleration, v{double(p.v[0][i]), double(p.v[1][i])};
-    const double m = q * p.mass[i] / s_.thickness[p.body[i]];
-    task.sums.inertia += m * Vec2{H.xx * a.x + H.yx * a.y - rate.xx * v.x - rate.yx * v.y,
-                                  H.xy * a.x + H.yy * a.y - rate.xy * v.x - rate.yy * v.y};
-    if (task.interaction && task.running.speed == 0)
-      add_interaction_inertia(task, m * a, r);
-  }
-
-  /// With known fields at rest rho a_i du_i/dx alone is left of P. Around a tip that runs at one speed, with all fields
-  /// about it, the parts of P cancel; between the two none of them is taken.
-  void add_interaction_inertia(TipTask& task, Vec2 force, Vec2 r) const {
-    const Vec2 t = task.heading, n = turned(t);
-    const AuxiliaryFields known = auxiliary_fields(*task.solid, task.running, Vec2{dot(r, t), dot(r, n)});
-    for (int mode = 0; mode < 2; ++mode) {
-      const AuxiliaryField& a = known.mode[mode];
-      task.sums.interaction[mode] += dot(force, t) * a.dux_dx + dot(force, n) * a.duy_dx;
-    }
+    chosen.fill_last_lanes();
+    Inertia<Shape, Real> inertia;
+    for (int k = 0; k < chosen.count; k += lanes)
+      inertia.add(s_, slots_, sums.task, chosen.particle + k, std::min(lanes, chosen.count - k));
+    inertia.add_to(sums.task.sums);
+    chosen.count = 0;
   }
 
   const State<Real, 2>& s_;

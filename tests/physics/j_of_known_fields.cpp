@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "core/fracture/place_domain.hpp"
 #include "kernels/crack_step.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/field_slots.hpp"
 #include "kernels/fracture_step.hpp"
 #include "kernels/j_integral.hpp"
 #include "tests/physics/scenes.hpp"
@@ -320,6 +323,105 @@ TEST(JOfKnownFields, LeavesOutTheJumpWhereAnotherCrackCutsFacesUnderPressure) {
       EXPECT_GT(sums.whole, -cut - 0.5);
       const double all = exact + P * jump * domain.weight(at(cut));
       EXPECT_NEAR(sums_at(m, {0, 0}, at(1), contour, false).tractions, all, 0.02 * all);
+    }
+}
+
+/// What inertia adds, particle by particle as the formula is printed: to J, and with known fields at rest to both modes
+/// of the interaction integral.
+struct InertiaByHand {
+  Vec2 J;
+  double size = 0;  ///< sum of the sizes of what was added
+  double interaction[2] = {0, 0};
+};
+
+template <class Shape>
+InertiaByHand inertia_by_hand(const Simulation& m, const TipTask& task) {
+  const auto& p = m.state.particles;
+  const Lattice& l = m.state.grid.lattice;
+  const FieldSlots slots(m.state.fields, l.nodes());
+  const Vec2 t = task.heading, n = turned(t);
+  InertiaByHand sum;
+  for (long k = 0; k < p.count(); ++k) {
+    const Vec2 x{p.x[0][k], p.x[1][k]}, r = x - task.domain.tip;
+    const auto& d = m.state.domains[p.body[k]];
+    const auto a = Shape::axis((x.x - l.origin.x) / l.h, d.axis[0]),
+               b = Shape::axis((x.y - l.origin.y) / l.h, d.axis[1]);
+    Mat2<double> grad{0, 0, 0, 0};
+    Vec2 acceleration;
+    for (int j = 0; j < Shape::width; ++j)
+      for (int i = 0; i < Shape::width; ++i) {
+        const int field = CrackFields::field_of(m.state.fields.fields[k], j * Shape::width + i);
+        const double* q = m.state.grid.q.data() + 4 * slots.of((b.base + j) * l.nx + a.base + i, field);
+        const double gx = a.g[i] * b.s[j] / l.h, gy = a.s[i] * b.g[j] / l.h;
+        grad = grad + Mat2<double>{q[0] * gx, q[0] * gy, q[1] * gx, q[1] * gy};
+        acceleration += a.s[i] * b.s[j] * Vec2{q[2], q[3]};
+      }
+    const Mat2<double> F{p.F[0][k], p.F[1][k], p.F[2][k], p.F[3][k]}, rate = grad * F, H = task.gradient(F);
+    const double mass = task.domain.weight(r) * p.mass[k] / m.state.thickness[p.body[k]];
+    const Vec2 v{p.v[0][k], p.v[1][k]};
+    const Vec2 part = mass * Vec2{H.xx * acceleration.x + H.yx * acceleration.y - rate.xx * v.x - rate.yx * v.y,
+                                  H.xy * acceleration.x + H.yy * acceleration.y - rate.xy * v.x - rate.yy * v.y};
+    sum.J += part;
+    sum.size += std::fabs(part.x) + std::fabs(part.y);
+    const AuxiliaryFields known = auxiliary_fields(*task.solid, RunningTip(*task.solid, 0), {dot(r, t), dot(r, n)});
+    for (int mode = 0; mode < 2; ++mode)
+      sum.interaction[mode] +=
+          mass * (dot(acceleration, t) * known.mode[mode].dux_dx + dot(acceleration, n) * known.mode[mode].duy_dx);
+  }
+  return sum;
+}
+
+// Motions without any order in two bodies that are not of one thickness, crossed by three cracks: every node's field
+// has a motion of its own.
+TEST(JOfKnownFields, InertiaIsThatOfEveryParticleInTheContour) {
+  const test::ChosenSpace space;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::ugimp, ShapeFunction::bspline})
+    for (const double split : {0.0, 3.0}) {
+      Scene scene = square(Plane::stress,
+                           {crack("target", {{-13, 0.1}, {0.2, 0.1}}), crack("cut", {{1.3, -20}, {1.4, 20}}),
+                            crack("slanting", {{-7, -4}, {7, 6}})},
+                           shape);
+      if (split > 0) {
+        scene.bodies = {body("left", Rectangle{{-12, -12}, {split, 12}}),
+                        body("right", Rectangle{{split, -12}, {12, 12}})};
+        scene.bodies[1].thickness = 0.5;
+      }
+      Simulation m(scene, space);
+      lay(m, [&](Vec2) { return Field{{any(random), any(random), any(random), any(random)}, 0, 0, 0}; });
+      for (auto& v : m.state.particles.v)
+        for (double& component : v)
+          component = any(random);
+      m.state.grid.q.resize(4L * (m.state.grid.lattice.nodes() + m.state.fields.extra_slots));
+      for (double& value : m.state.grid.q)
+        value = any(random);
+      const PlaneElasticity solid(scene.materials[0], scene.plane);
+      for (const double contour : {4.0, 16.0})
+        for (const double speed : {0.0, 0.5 * solid.shear_speed}) {
+          SCOPED_TRACE(testing::Message() << name_of(shape) << " split " << split << " contour " << contour);
+          const double half = contour / 2, reach[4] = {half, half, half, half};
+          TipTask task;
+          task.domain = plain_domain({0.2, 0.1}, reach, scene.cell);
+          task.heading = {0.8, 0.6};
+          task.turn = {0.8, 0.6};
+          task.solid = &solid;
+          task.running = RunningTip(solid, speed);
+          task.interaction = true;
+          std::vector<TipTask> tasks{task, task};
+          tasks[1].inertia = true;
+          sum_around_tips(space, m.plan, m.state, tasks);
+          const TipSums &without = tasks[0].sums, &with = tasks[1].sums;
+          const InertiaByHand by_hand =
+              with_shape(shape, [&](auto type) { return inertia_by_hand<typename decltype(type)::type>(m, task); });
+          EXPECT_NEAR(with.inertia.x, by_hand.J.x, 1e-12 * by_hand.size);
+          EXPECT_NEAR(with.inertia.y, by_hand.J.y, 1e-12 * by_hand.size);
+          EXPECT_EQ(without.inertia.x, 0);
+          EXPECT_EQ(with.J.x, without.J.x);
+          for (int mode = 0; mode < 2; ++mode)
+            EXPECT_NEAR(with.interaction[mode] - without.interaction[mode], speed > 0 ? 0 : by_hand.interaction[mode],
+                        1e-10 * (std::fabs(by_hand.interaction[mode]) + std::fabs(without.interaction[mode])));
+        }
     }
 }
 

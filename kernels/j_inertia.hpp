@@ -1,0 +1,133 @@
+// Particles around a tip where q is not zero, as many at a time as there are lanes of a vector, and what inertia adds
+// to J there: sum a_p q P_K of j_integral.hpp.
+#pragma once
+#include <algorithm>
+
+#include "core/fracture/auxiliary_fields.hpp"
+#include "kernels/field_slots.hpp"
+#include "kernels/j_integral.hpp"
+#include "kernels/views.hpp"
+
+namespace riven {
+
+template <class Shape, class Real>
+struct Inertia {
+  static constexpr int lanes = exec::lanes, nodes = neighbours<Shape, 2>;
+
+  /// Adds `count` particles, up to as many as there are lanes; the numbers behind them are of particles too, which
+  /// weigh nothing.
+  void add(const State<Real, 2>& s, const FieldSlots& slots, const TipTask& task, const int* particle, int count) {
+    alignas(64) int at[lanes];
+    std::copy_n(particle, lanes, at);
+    gather_motion(s, slots, at, count);
+    weigh(s, task.domain, at, count);
+    const double *A = s.particles.F[0].data(), *B = s.particles.F[1].data(), *C = s.particles.F[2].data(),
+                 *D = s.particles.F[3].data();
+    const Real *VX = s.particles.v[0].data(), *VY = s.particles.v[1].data();
+    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+      const int i = at[k];
+      const Mat2<double> F{A[i], B[i], C[i], D[i]}, H = task.gradient(F);
+      const double vx = VX[i], vy = VY[i], vgx = vx * gxx[k] + vy * gyx[k], vgy = vx * gxy[k] + vy * gyy[k];
+      sum_x[k] += mass[k] * (H.xx * ax[k] + H.yx * ay[k] - vgx * F.xx - vgy * F.yx);
+      sum_y[k] += mass[k] * (H.xy * ax[k] + H.yy * ay[k] - vgx * F.xy - vgy * F.yy);
+    });
+    // With known fields at rest rho a_i du_i/dx alone is left of P. Around a tip that runs at one speed, with all
+    // fields about it, the parts of P cancel; between the two none of them is taken, so that inertia changes J of a tip
+    // that runs but not what drives it, unless its opening says that.
+    if (task.interaction && task.running.speed == 0)
+      add_interaction(task, FieldsAtRest(*task.solid));
+  }
+
+  /// What was added so far.
+  void add_to(TipSums& sums) const {
+    sums.inertia += Vec2{sum(sum_x), sum(sum_y)};
+    for (int mode = 0; mode < 2; ++mode)
+      sums.interaction[mode] += sum(interaction[mode]);
+  }
+
+ private:
+  /// Velocity gradient and acceleration from the advanced grid. Most particles see no crack: their nodes' slots follow
+  /// each other along a row.
+  void gather_motion(const State<Real, 2>& s, const FieldSlots& slots, const int* at, int count) {
+    const Particles<Real, 2>& p = s.particles;
+    const Lattice& l = s.grid.lattice;
+    const Real* q = s.grid.q.data();
+    alignas(64) double x[lanes], y[lanes];
+    std::uint8_t body[lanes];
+    for (int k = 0; k < lanes; ++k) {
+      x[k] = p.x[0][at[k]];
+      y[k] = p.x[1][at[k]];
+      body[k] = p.body[at[k]];
+    }
+    Block<Real, Shape> w;
+    w.weigh({x, y, l.origin.x, l.origin.y, 1 / l.h, {s.domains.data(), body, s.domains.size() == 1}}, 0);
+    for (int k = 0; k < count; ++k) {
+      const std::uint32_t word = s.fields.fields[at[k]];
+      set_motion(k, word == 0 ? gather<true>(w, k, q, l.nx) : gather_across(w, k, q, l.nx, slots, word));
+    }
+  }
+
+  static RIVEN_INLINE Gathered<Real> gather_across(const Block<Real, Shape>& w, int k, const Real* q, int nx,
+                                                   const FieldSlots& slots, std::uint32_t word) {
+    int slot[nodes];
+#pragma GCC unroll 3
+    for (int j = 0; j < Shape::width; ++j)
+#pragma GCC unroll 3
+      for (int i = 0; i < Shape::width; ++i) {
+        const int n = j * Shape::width + i, node = (w.iy[k] + j) * nx + w.ix[k] + i;
+        slot[n] = slots.among_cracks(node, CrackFields::field_of(word, n));
+      }
+    return gather_slots<true>(w, k, q, slot);
+  }
+
+  RIVEN_INLINE void set_motion(int k, const Gathered<Real>& m) {
+    gxx[k] = m.dx[0];
+    gxy[k] = m.dy[0];
+    gyx[k] = m.dx[1];
+    gyy[k] = m.dy[1];
+    ax[k] = m.value[2];
+    ay[k] = m.value[3];
+  }
+
+  void weigh(const State<Real, 2>& s, const JDomain& domain, const int* at, int count) {
+    const double *X = s.particles.x[0].data(), *Y = s.particles.x[1].data();
+    const Real* M = s.particles.mass.data();
+    alignas(64) double thickness[lanes];
+    for (int k = 0; k < lanes; ++k)
+      thickness[k] = s.thickness[s.particles.body[at[k]]];
+    const JDomain d = domain;
+    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+      const int i = at[k];
+      rx[k] = X[i] - d.tip.x;
+      ry[k] = Y[i] - d.tip.y;
+      mass[k] = (k < count ? 1.0 : 0.0) * d.weight({rx[k], ry[k]}) * M[i] / thickness[k];
+    });
+  }
+
+  template <class Fields>
+  void add_interaction(const TipTask& task, const Fields& fields) {
+    const Vec2 t = task.heading, n = turned(t);
+    exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
+      const double a1 = ax[k] * t.x + ay[k] * t.y, a2 = ax[k] * n.x + ay[k] * n.y;
+      const AuxiliaryFields known = fields(Vec2{rx[k] * t.x + ry[k] * t.y, rx[k] * n.x + ry[k] * n.y});
+      for (int mode = 0; mode < 2; ++mode)
+        interaction[mode][k] += mass[k] * (a1 * known.mode[mode].dux_dx + a2 * known.mode[mode].duy_dx);
+    });
+  }
+
+  static double sum(const double* value) {
+    double total = 0;
+    for (int k = 0; k < lanes; ++k)
+      total += value[k];
+    return total;
+  }
+
+  alignas(64) double rx[lanes], ry[lanes];              ///< m, from the tip
+  alignas(64) double mass[lanes];                       ///< kg/m, per thickness, times q
+  alignas(64) double gxx[lanes] = {}, gxy[lanes] = {};  ///< 1/s, velocity gradient
+  alignas(64) double gyx[lanes] = {}, gyy[lanes] = {};
+  alignas(64) double ax[lanes] = {}, ay[lanes] = {};  ///< m/s^2
+  alignas(64) double sum_x[lanes] = {}, sum_y[lanes] = {}, interaction[2][lanes] = {};
+};
+
+}  // namespace riven
