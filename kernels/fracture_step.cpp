@@ -142,9 +142,16 @@ class JSearch {
     if (!m_.contact_sums.touched.empty())
       task.touched = m_.contact_sums.touched.data();
     task.other_faces = rules_.method != JMethod::pijc;
-    task.inertia = rules_.area == AreaTerm::always || (rules_.area == AreaTerm::automatic && rules_.contour > 10);
+    task.inertia = counts_inertia(d, task.running.speed > 0);
     task.interaction = rules_.interaction;
     return task;
+  }
+
+  /// J has inertia within the contour; of a tip that runs, what a near one says of its drive has none.
+  bool counts_inertia(const Due& d, bool runs) const {
+    if (rules_.area == AreaTerm::automatic)
+      return runs ? !d.near : rules_.contour > 10;
+    return rules_.area == AreaTerm::always && !(runs && d.near);
   }
 
   /// The other tips, where the contour is to leave them out.

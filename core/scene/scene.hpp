@@ -29,7 +29,7 @@ enum class ContactDetection { volume, velocity, displacement };  ///< displaceme
 enum class ContactWhen { always, closing };                      ///< closing: only while some faces touch
 enum class Sidecar { none, vtp };
 enum class JMethod { pijc, fijc, fijc_adaptive };  ///< what J does where other cracks cross the contour
-enum class AreaTerm { automatic, never, always };  ///< automatic: for contours of more than 10 cells
+enum class AreaTerm { automatic, never, always };  ///< automatic: for tips that run, or beyond 10 cells
 enum class TractionKind { pressure, triangular, trilinear, exponential };
 enum class GrowthCriterion { k_max, critical_j };
 enum class GrowthDirection { hoop, self_similar, fixed };
