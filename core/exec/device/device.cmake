@@ -43,6 +43,9 @@ if(RIVEN_DEVICE STREQUAL "ON" OR RIVEN_DEVICE_CHECKED)
 -diag-suppress=1675,836,128,177;-Xcompiler=-fopenmp,-fno-math-errno;$<$<BOOL:${RIVEN_WERROR}>:-Werror=all-warnings>>")
   check_compiler_flag(CUDA --Ofast-compile=max RIVEN_NVCC_HAS_FAST_COMPILE)  # nvcc of 12.9 and later
 endif()
+if(RIVEN_DEVICE_CHECKED)  # all that nvcc does itself; what it would hand to the host's compiler stays uncompiled
+  string(REPLACE "<CUDA_COMPILE_MODE>" "--cuda" CMAKE_CUDA_COMPILE_OBJECT "${CMAKE_CUDA_COMPILE_OBJECT}")
+endif()
 if(NOT RIVEN_DEVICE STREQUAL "OFF")
   target_compile_definitions(riven_flags INTERFACE RIVEN_DEVICE)
 endif()
@@ -53,11 +56,10 @@ endif()
 # riven_check_only(OBJECTS): compiled for what the compiler says of it, never run; hence without optimisation, which
 # leaves calls in place whose stack ptxas cannot tell.
 function(riven_check_only objects)
-  set(quick -Xcompiler=-O0)
   if(RIVEN_NVCC_HAS_FAST_COMPILE)
-    list(APPEND quick --Ofast-compile=max -Xptxas=--suppress-stack-size-warning)
+    target_compile_options(${objects} PRIVATE
+      "$<$<COMPILE_LANGUAGE:CUDA>:--Ofast-compile=max;-Xptxas=--suppress-stack-size-warning>")
   endif()
-  target_compile_options(${objects} PRIVATE "$<$<COMPILE_LANGUAGE:CUDA>:${quick}>")
 endfunction()
 
 # riven_on_device(TARGET LAUNCHING|SERIAL SOURCES...): adds sources of this folder, compiled for the device's side: by nvcc
