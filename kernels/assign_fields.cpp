@@ -250,21 +250,30 @@ void assign_nodes(const exec::Space& space, const Lattice& lattice, const Cracks
                           exec::data(fields.verdict),
                           exec::data(fields.held),
                           exec::data(fields.tiles)};
+  const long points = cracks.points();
+  fields.segment_normals.renew(points);
+  exec::launch_some(space, points - 1, exec::few,
+                    [=, plane = exec::data(cracks.plane), first = exec::data(cracks.plane0),
+                     out = exec::data_to_fill(fields.segment_normals)] RIVEN_KERNEL(long k) {
+                      out[k] = segment_normal(lattice, plane, first, k);
+                    });
   const NormalAverager averager{lists,
                                 exec::data(cracks.plane),
-                                exec::data(cracks.plane0),
+                                exec::data(std::as_const(fields.segment_normals)),
                                 exec::data(std::as_const(fields.nodes)),
                                 exec::data(std::as_const(fields.held)),
                                 exec::data_to_fill(fields.normals),
                                 exec::data(fields.third_normals)};
-  exec::parallel_for(space, "assign fields", fields.nodes.size(),
-                     [=, recount = exec::data(fields.recount)] RIVEN_KERNEL(long f) {
-                       if (recount[f]) {
-                         recount[f] = 0;
-                         holder.hold(f);
-                       }
-                       averager.find(f);
-                     });
+  exec::parallel_for(
+      space, "assign fields", fields.nodes.size(),
+      [=, recount = exec::data(fields.recount)] RIVEN_KERNEL(long f) {
+        if (recount[f]) {
+          recount[f] = 0;
+          holder.hold(f);
+        }
+        averager.find(f);
+      },
+      exec::few);
 }
 
 /// The fields of the particles of marked tiles, and their slots.

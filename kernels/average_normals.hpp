@@ -37,13 +37,27 @@ RIVEN_INLINE Vec2 unit(Vec2 n) {
 
 }  // namespace detail
 
+/// Segment k for the averages of the nodes around it.
+RIVEN_INLINE SegmentNormal segment_normal(const Lattice& lattice, const Vec2* plane, const Vec2* plane0, long k) {
+  const double inv_h = 1 / lattice.h;
+  const Vec2 d = (plane[k + 1] - plane[k]) * inv_h;
+  SegmentNormal s;
+  s.middle = (0.5 * (plane[k] + plane[k + 1]) - lattice.origin) * inv_h;
+  s.now = detail::weighted_normal(plane[k], plane[k + 1]);
+  s.first = detail::weighted_normal(plane0[k], plane0[k + 1]);
+  if (const double length2 = dot(d, d); length2 > 0.36)
+    s.pieces = static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));
+  return s;
+}
+
 /// Finds the normals of flagged nodes from the segments that each may see, in their order.
 struct NormalAverager {
   ListsView lists;
-  const Vec2 *plane, *plane0;  ///< Cracks
-  const NodeCracks* nodes;     ///< [flagged]
-  const std::uint8_t* held;    ///< [flagged]
-  NodeNormals* normals;        ///< [flagged]
+  const Vec2* plane;             ///< Cracks
+  const SegmentNormal* segment;  ///< [points]
+  const NodeCracks* nodes;       ///< [flagged]
+  const std::uint8_t* held;      ///< [flagged]
+  NodeNormals* normals;          ///< [flagged]
   ThirdNormal* third;
 
   /// Those of node f. A crack that only just reaches into sight of the node, or folds back so that its normals cancel,
@@ -51,6 +65,7 @@ struct NormalAverager {
   RIVEN_FN void find(long f) const {
     normals[f] = {};
     const NodeCracks& node = nodes[f];
+    const Vec2 at{double(node.node % lists.lattice.nx), double(node.node / lists.lattice.nx)};
     int c = lists.candidate_start[f];
     for (int m = 0; m < held[f]; ++m, ++c) {
       while (lists.candidate[c] != node.crack[m])
@@ -58,11 +73,11 @@ struct NormalAverager {
       const int first = lists.segment_start[c], last = lists.segment_start[c + 1];
       Sums sums;
       for (int s = first; s < last; ++s)
-        add(node.node, lists.node_segment[s], sums);
+        add(at, segment[lists.node_segment[s]], sums);
       const double least = 1e-9 * lists.lattice.h;
       if (!(dot(sums.now, sums.now) > least * least && dot(sums.first, sums.first) > least * least)) {
-        const int k = nearest(lists.lattice.position(node.node), first, last);
-        sums = {detail::weighted_normal(plane[k], plane[k + 1]), detail::weighted_normal(plane0[k], plane0[k + 1])};
+        const SegmentNormal& near = segment[nearest(lists.lattice.position(node.node), first, last)];
+        sums = {near.now, near.first};
       }
       (m < 2 ? normals[f].now[m] : third[node.third].now) = detail::unit(sums.now);
       (m < 2 ? normals[f].first[m] : third[node.third].first) = detail::unit(sums.first);
@@ -74,21 +89,21 @@ struct NormalAverager {
     Vec2 now, first;
   };
 
-  /// Adds the pieces of segment k to the sums of a node.
-  RIVEN_FN void add(int node, int k, Sums& sums) const {
-    const Lattice& lattice = lists.lattice;
-    const double inv_h = 1 / lattice.h;
-    const Vec2 from = lattice.position(node);
-    const Vec2 a = (plane[k] - from) * inv_h, d = (plane[k + 1] - from) * inv_h - a;
-    const double length2 = dot(d, d);
-    const int pieces = length2 <= 0.36 ? 1 : static_cast<int>(std::ceil(2 * std::sqrt(length2) - 0.2));
-    double weight = 0;
-    for (int piece = 0; piece < pieces; ++piece) {
-      const Vec2 r = a + ((piece + 0.5) / pieces) * d;
-      weight += detail::spline(r.x) * detail::spline(r.y);
+  /// Adds a segment to the sums of a node, which is so many cells from the lattice's first one.
+  RIVEN_FN void add(Vec2 node, const SegmentNormal& s, Sums& sums) const {
+    const Vec2 r = s.middle - node;
+    const double weight = s.pieces == 1 ? detail::spline(r.x) * detail::spline(r.y) : mean_of_pieces(s, r);
+    sums.now += weight * s.now;
+    sums.first += weight * s.first;
+  }
+  RIVEN_FN double mean_of_pieces(const SegmentNormal& s, Vec2 middle) const {
+    const Vec2 along = (1 / lists.lattice.h) * turned(s.now);
+    double sum = 0;
+    for (int piece = 0; piece < s.pieces; ++piece) {
+      const Vec2 r = middle + ((piece + 0.5) / s.pieces - 0.5) * along;
+      sum += detail::spline(r.x) * detail::spline(r.y);
     }
-    sums.now += (weight / pieces) * detail::weighted_normal(plane[k], plane[k + 1]);
-    sums.first += (weight / pieces) * detail::weighted_normal(plane0[k], plane0[k + 1]);
+    return sum / s.pieces;
   }
 
   RIVEN_FN int nearest(Vec2 place, int first, int last) const {

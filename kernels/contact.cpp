@@ -310,7 +310,8 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   const long count = fields.nodes.size();
   constexpr long ahead = 8;
   report += exec::parallel_sum<ContactReport>(
-      space, label, fields.nodes.size(), [=] RIVEN_KERNEL(long i, ContactReport& sum) {
+      space, label, fields.nodes.size(),
+      [=] RIVEN_KERNEL(long i, ContactReport& sum) {
         if (i + ahead < count && held[i + ahead] != 0) {
           const NodeCracks& next = nodes[i + ahead];
           exec::prefetch(found.normals + i + ahead);
@@ -334,7 +335,8 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
         }
         if (touched)
           touched[i] = acting;
-      });
+      },
+      exec::few);
 }
 
 }  // namespace

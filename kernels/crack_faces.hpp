@@ -27,21 +27,6 @@ struct FieldFit {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  ///< in cells
   FaceValues f{}, fx{}, fy{};
 
-  template <size_t Count>
-  RIVEN_INLINE void add(double weight, double rx, double ry, const FaceValues& values) {
-    area += weight;
-    x += weight * rx;
-    y += weight * ry;
-    xx += weight * rx * rx;
-    xy += weight * rx * ry;
-    yy += weight * ry * ry;
-    for (size_t k = 0; k < Count; ++k) {
-      const double w = weight * values[k];
-      f[k] += w;
-      fx[k] += w * rx;
-      fy[k] += w * ry;
-    }
-  }
   /// Adds weight * (value at offset r) of the fitted field to `to`, for the first `count` values.
   void evaluate(Vec2 r, double weight, size_t count, FaceValues& to) const;
 };

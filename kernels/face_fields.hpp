@@ -11,9 +11,7 @@
 #include "core/state/state.hpp"
 #include "kernels/cell_rows.hpp"
 #include "kernels/cells_around.hpp"
-#include "kernels/crack_faces.hpp"
-#include "kernels/j_integral.hpp"
-#include "kernels/law_state.hpp"
+#include "kernels/face_particles.hpp"
 #include "kernels/surface_field.hpp"
 
 namespace riven {
@@ -24,8 +22,7 @@ class FaceFields {
   FaceFields(const State<Real, 2>& s, const SurfaceView& view, const TipTask& task)
       : s_(s),
         view_(view),
-        law_(laws<Law>(s)),
-        reads_(reads(s.particles)),
+        source_(s),
         task_(task),
         drift_(s.watch.drift / s.grid.lattice.h + 1e-6),
         memory_(cleared_memory()) {
@@ -112,58 +109,42 @@ class FaceFields {
     int& at = memory_.index[static_cast<size_t>((j - corner_[1]) * width_ + i - corner_[0])];
     if (at < 0) {
       at = static_cast<int>(memory_.fits.size());
-      memory_.fits.resize(memory_.fits.size() + (flagged >= 0 && view_.nodes[flagged].crack[2] >= 0 ? 8 : 4));
-      sum_node(i, j, memory_.fits.data() + at);
+      const int fields = flagged < 0 ? 1 : view_.nodes[flagged].room();
+      memory_.fits.resize(memory_.fits.size() + static_cast<size_t>(fields));
+      if (energies_)
+        sum_node<face_values>(i, j, fields, memory_.fits.data() + at);
+      else
+        sum_node<face_cheap>(i, j, fields, memory_.fits.data() + at);
     }
     return memory_.fits.data() + at;
   }
 
-  void sum_node(int I, int J, FieldFit* fits) {
-    if (energies_)
-      sum_values<face_values>(I, J, fits);
-    else
-      sum_values<face_cheap>(I, J, fits);
-  }
   template <size_t Count>
-  void sum_values(int I, int J, FieldFit* fits) {
+  void sum_node(int I, int J, int fields, FieldFit* fits) {
+    FitLanes<Count> sums[1 << most_held];
+    for (int f = 0; f < fields; ++f)
+      sums[f].clear();
     const double reach = 1.5 + drift_;
     for (int j = Shape::cell(J - reach); j <= Shape::cell(J + reach); ++j)
       for (int i = Shape::cell(I - reach); i <= Shape::cell(I + reach); ++i) {
         const auto [first, last] = seen_in(i, j);
         for (int k = first; k < last; ++k)
-          memory_.seen[static_cast<size_t>(k)].template add<Count>(I, J, fits);
+          memory_.seen[static_cast<size_t>(k)].add(I, J, sums);
       }
+    for (int f = 0; f < fields; ++f)
+      sums[f].add_to(fits[f]);
   }
 
-  /// What a particle adds to the fits of its nodes.
-  struct Seen {
-    int base_x, base_y;
-    double x, y;  ///< from the first of its nodes, in cells
-    double weight_x[Shape::width], weight_y[Shape::width];
-    double area;  ///< in cells
-    std::uint32_t word;
-    FaceValues values;
-
-    template <size_t Count>
-    void add(int I, int J, FieldFit* fits) const {
-      const int m = I - base_x, n = J - base_y;
-      if (static_cast<unsigned>(m) >= Shape::width || static_cast<unsigned>(n) >= Shape::width)
-        return;
-      const double S = weight_x[m] * weight_y[n];
-      if (S > 0)
-        fits[CrackFields::field_of(word, n * Shape::width + m)].template add<Count>(area * S, x - m, y - n, values);
-    }
-  };
   struct Range {
     int first = -1, last = -1;
   };
 
   /// Kept by its thread from tip to tip, as asking for memory would take as long as filling it.
   struct Memory {
-    std::vector<int> index;      ///< [nodes of the domain] position of the first in fits, or -1
-    std::vector<FieldFit> fits;  ///< of the fields of nodes that were asked for
-    std::vector<Range> of_cell;  ///< [cells of the domain and its margin]
-    std::vector<Seen> seen;      ///< particles of cells that were asked for
+    std::vector<int> index;                             ///< [nodes of the domain] position of the first in fits, or -1
+    std::vector<FieldFit> fits;                         ///< of the fields of nodes that were asked for
+    std::vector<Range> of_cell;                         ///< [cells of the domain and its margin]
+    std::vector<FaceParticles<Shape, Law, Real>> seen;  ///< of cells that were asked for
   };
   static Memory& cleared_memory() {
     thread_local Memory memory;
@@ -185,49 +166,12 @@ class FaceFields {
     if (range.first < 0) {
       range.first = static_cast<int>(memory_.seen.size());
       each_stretch_of_row(s_.grid.lattice, s_.particles.tiles.cell_start.data(), j, i, i, [&](int first, int last) {
-        for (int p = first; p < last; ++p)
-          see(p);
+        for (int p = first; p < last; p += face_lanes)
+          memory_.seen.emplace_back().take(source_, task_, p, std::min(face_lanes, last - p), energies_);
       });
       range.last = static_cast<int>(memory_.seen.size());
     }
     return range;
-  }
-
-  void see(int i) {
-    const Particles<Real, 2>& p = s_.particles;
-    const Lattice& l = s_.grid.lattice;
-    const DomainSetting<Real, 2>& d = s_.domains[p.body[i]];
-    const double inv = 1 / l.h, X = (p.x[0][i] - l.origin.x) * inv, Y = (p.x[1][i] - l.origin.y) * inv;
-    const auto a = Shape::axis(X, d.axis[0]), b = Shape::axis(Y, d.axis[1]);
-    const LawState<Real> state = law_state<Law>(reads_, i);
-    const double density = 1 / (s_.specific_area[p.body[i]] * s_.thickness[p.body[i]] * state.J);
-    const double xx = density * state.xx, yy = density * state.yy, xy = density * state.xy;
-    Seen& seen = memory_.seen.emplace_back();
-    seen.base_x = a.base;
-    seen.base_y = b.base;
-    seen.x = X - a.base;
-    seen.y = Y - b.base;
-    for (int k = 0; k < Shape::width; ++k) {
-      seen.weight_x[k] = a.s[k];
-      seen.weight_y[k] = b.s[k];
-    }
-    seen.area = p.mass[i] * s_.specific_area[p.body[i]] * state.J * inv * inv;
-    seen.word = s_.fields.fields[i];
-    seen.values[face_stress] = xx;
-    seen.values[face_stress + 1] = yy;
-    seen.values[face_stress + 2] = xy;
-    const double kinetic = 0.5 * density * (p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]);
-    seen.values[face_kinetic] = kinetic * state.J;
-    if (!energies_)
-      return;
-    const auto& F = state.F;
-    const Mat2<double> H = task_.gradient(F);
-    const double W = density * law_.of(i).energy(state) + kinetic;
-    seen.values[face_energy] = W * state.J;
-    seen.values[face_eshelby] = W * F.xx - (xx * H.xx + xy * H.yx);
-    seen.values[face_eshelby + 1] = W * F.yx - (xy * H.xx + yy * H.yx);
-    seen.values[face_eshelby + 2] = W * F.xy - (xx * H.xy + xy * H.yy);
-    seen.values[face_eshelby + 3] = W * F.yy - (xy * H.xy + yy * H.yy);
   }
 
   static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
@@ -236,8 +180,7 @@ class FaceFields {
 
   const State<Real, 2>& s_;
   const SurfaceView& view_;
-  BodyLookup<Law> law_;
-  ParticleReads<Real> reads_;
+  typename FaceParticles<Shape, Law, Real>::Source source_;
   const TipTask& task_;
   double drift_;
   std::array<int, 2> corner_{0, 0};

@@ -95,7 +95,7 @@ void follow_nodes(const exec::Space& space, const Lattice& lattice, const Cracks
                               exec::data(fields.follow_at),
                               fields.travel,
                               afresh};
-  exec::launch_some(space, fields.nodes.size(), exec::chunk, [=] RIVEN_KERNEL(long f) {
+  exec::launch_some(space, fields.nodes.size(), exec::few, [=] RIVEN_KERNEL(long f) {
     if (follower.due(f))
       follower.follow(f);
   });

@@ -79,6 +79,10 @@ void launch(const Space& space, long n, const F& f) {
 /// chunks do not depend on the number of threads.
 inline constexpr long chunk = 2048;
 
+/// Items of which one takes as long as a score of those (a node beside cracks), and of which there may be too few for
+/// such chunks to keep all threads busy.
+inline constexpr long few = 128;
+
 /// The same for small items, of which one task takes some.
 template <class F>
 void launch_some(const Space& space, long n, long some, const F& f) {
@@ -101,14 +105,11 @@ void parallel_tasks(const Space& space, const char* label, long n, const F& f) {
   launch(space, n, f);
 }
 
-/// f(i) for i in [0, n); items are small (a node, a particle) and are taken in chunks.
+/// f(i) for i in [0, n); items are small (a node, a particle) and one task takes some.
 template <class F>
-void parallel_for(const Space& space, const char* label, long n, const F& f) {
-  parallel_tasks(space, label, (n + chunk - 1) / chunk, [&](long c) {
-    const long end = std::min(n, (c + 1) * chunk);
-    for (long i = c * chunk; i < end; ++i)
-      f(i);
-  });
+void parallel_for(const Space& space, const char* label, long n, const F& f, long some = chunk) {
+  Stopwatch watch(space.timers(), label);
+  launch_some(space, n, some, f);
 }
 
 /// The threads of a team as one of them sees it: on the host there is but one.
@@ -161,15 +162,15 @@ void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
 }
 
 /// Sum over i in [0, n) of what f(i, sum) adds to its argument, T being default-constructible to zero and having +=.
-/// Chunks are summed in order: the result is the same on any number of threads.
+/// One task takes some, and their sums are added in order: the result is the same on any number of threads.
 template <class T, class F>
-T parallel_sum(const Space& space, const char* label, long n, const F& f) {
-  const long chunks = (n + chunk - 1) / chunk;
+T parallel_sum(const Space& space, const char* label, long n, const F& f, long some = chunk) {
+  const long chunks = (n + some - 1) / some;
   std::vector<T> part(static_cast<size_t>(chunks));
   parallel_tasks(space, label, chunks, [&, p = part.data()](long c) {
     T sum{};
-    const long end = std::min(n, (c + 1) * chunk);
-    for (long i = c * chunk; i < end; ++i)
+    const long end = std::min(n, (c + 1) * some);
+    for (long i = c * some; i < end; ++i)
       f(i, sum);
     p[c] = sum;
   });

@@ -47,7 +47,7 @@ void launch_teams(const Space&, long n, int threads, size_t shared, const F& f) 
 }
 
 template <class F>
-void parallel_for(const Space& space, const char* label, long n, const F& f) {
+void parallel_for(const Space& space, const char* label, long n, const F& f, long = 0) {
   const Stopwatch timed(space.timers(), label);
   launch(space, n, f);
 }
@@ -96,23 +96,23 @@ void parallel_zero(const Space& space, const char* label, Arrays&... arrays) {
   (detail::zero(arrays), ...);
 }
 
-/// Items of which a team makes one sum.
-inline constexpr long chunk = 2048;
+/// Items of which a team makes one sum, if they are small, and if one takes as long as a score of such.
+inline constexpr long chunk = 2048, few = 128;
 
 /// Sum over i in [0, n) of what f(i, sum) adds to its argument, T being default-constructible to zero and having +=.
 /// In an order that depends on n alone.
 template <class T, class F>
-T parallel_sum(const Space& space, const char* label, long n, const F& f) {
+T parallel_sum(const Space& space, const char* label, long n, const F& f, long some = chunk) {
   constexpr int threads = 128;
-  const long chunks = (n + chunk - 1) / chunk;
+  const long chunks = (n + some - 1) / some;
   Array<T> parts(chunks);
   parallel_teams(space, label, chunks, threads, threads * sizeof(T),
                  [=, part = data_to_fill(parts)] RIVEN_KERNEL(const Team& team, long c) {
                    T* own = team.shared<T>();
-                   const long end = n < (c + 1) * chunk ? n : (c + 1) * chunk;
+                   const long end = n < (c + 1) * some ? n : (c + 1) * some;
                    team.each_thread([&](int t) {
                      T sum{};
-                     for (long i = c * chunk + t; i < end; i += threads)
+                     for (long i = c * some + t; i < end; i += threads)
                        f(i, sum);
                      own[t] = sum;
                    });

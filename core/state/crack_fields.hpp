@@ -43,6 +43,13 @@ struct ThirdNormal {
   Vec2 now, first;
 };
 
+/// What a segment adds to such averages (kernels/average_normals.hpp).
+struct alignas(64) SegmentNormal {
+  Vec2 middle;      ///< cells from the lattice's first node
+  Vec2 now, first;  ///< m, its normal from above to below times its length
+  int pieces = 1;   ///< that it is taken in
+};
+
 /// What the crossing of a crack from one side means at a node, where it is not field 1, 2 or 4.
 enum CrossingVerdict : std::uint8_t { other_side = 8, fourth_crack = 16 };
 
@@ -135,9 +142,10 @@ struct CrackFields : CrackLists {
   static_assert(exec::block <= 16);       // bits in `crossing`
   static constexpr double margin = 0.25;  ///< cells that a crack point may move before the hash is due
 
-  exec::Array<NodeNormals> normals;        ///< [flagged]
-  exec::Array<ThirdNormal> third_normals;  ///< [nodes that may see three cracks or more] see NodeCracks::third
-  exec::Array<int> extra;                  ///< [nodes] see grid.hpp
+  exec::Array<SegmentNormal> segment_normals;  ///< [points] of the segments that begin there
+  exec::Array<NodeNormals> normals;            ///< [flagged]
+  exec::Array<ThirdNormal> third_normals;      ///< [nodes that may see three cracks or more] see NodeCracks::third
+  exec::Array<int> extra;                      ///< [nodes] see grid.hpp
   int extra_slots = 0;
 
   CrackLists former;      ///< as the last trace knew them
