@@ -24,6 +24,13 @@ void check_names(const Scene& s, const std::vector<Part>& parts, const std::stri
              "a name for each", "");
 }
 
+/// Results name grips and fixed nodes alike.
+void check_owners(const Scene& s) {
+  for (const FixedNodes& f : s.fixed)
+    if (std::any_of(s.grips.begin(), s.grips.end(), [&](const Grip& g) { return g.name == f.name; }))
+      refuse(s, "fix " + f.name, "a grip and a fix have the same name", f.name, "a name for each", "");
+}
+
 void check_grid(const Scene& s) {
   const Vec2 size = s.grid.upper - s.grid.lower;
   if (!(size.x > 0 && size.y > 0))
@@ -100,6 +107,7 @@ void check_scene(const Scene& s) {
   check_names(s, s.bodies, "body");
   check_names(s, s.grips, "grip");
   check_names(s, s.fixed, "fix");
+  check_owners(s);
   check_names(s, s.loads, "load");
   check_names(s, s.cracks, "crack");
   check_names(s, s.probes, "probe");

@@ -11,6 +11,7 @@ constexpr double particle_bytes = 160;  // least that a particle costs
 constexpr int path_samples = 1000;
 constexpr double most_steps = 200;   // along an axis, to find a point in two bodies
 constexpr size_t most_bodies = 100;  // compared with each other
+constexpr size_t most_in_all = 256;  // particles know theirs by eight bits
 
 bool inside(const Rectangle& inner, const Rectangle& outer, double slack) {
   return inner.lower.x >= outer.lower.x - slack && inner.lower.y >= outer.lower.y - slack &&
@@ -105,6 +106,9 @@ void check_holes(const Scene& s, const Body& b) {
 void check_solids(const Scene& s) {
   if (s.bodies.empty())
     refuse(s, "body", "the scene has no body", "", "at least one [[body]]", "");
+  if (s.bodies.size() > most_in_all)
+    refuse(s, "body", "the scene has too many bodies", fmt::format("{}", s.bodies.size()),
+           fmt::format("at most {}", most_in_all), "");
   double particles = 0;
   const auto count = [&](const Region& region, int per_cell) {
     const Vec2 size = bounds(region).upper - bounds(region).lower;

@@ -5,6 +5,8 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -26,12 +28,28 @@ void clear_away(const fs::path& path) {
     fail_file(path, "remove the file", error.value());
 }
 
+/// Did the run whose results lie there end by itself? A killed one has left no summary.
+bool has_ended(const fs::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  return summary.is_object() && summary.value("status", "") != "interrupted";
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::equivalent(a, b, error);
 }
 
 }  // namespace
+
+void refuse_to_remove_unfinished(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / newest, error) && !has_ended(folder))
+    fail({Exit::file, "this folder holds a run that was interrupted and can go on", folder.string(), newest,
+          "a folder without an unfinished run",
+          fmt::format("riven run --restart {} goes on with it; -o names another folder; --overwrite begins anew",
+                      folder.string())});
+}
 
 CheckpointFile find_checkpoint(const fs::path& at) {
   std::error_code error;

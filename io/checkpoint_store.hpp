@@ -10,6 +10,9 @@ namespace riven {
 /// newest there is, a warning goes to standard error. Throws Error (file).
 CheckpointFile find_checkpoint(const std::filesystem::path& file_or_folder);
 
+/// Throws Error (file) if the folder holds an unfinished run that can go on: one that begins anew there removes it.
+void refuse_to_remove_unfinished(const std::filesystem::path& folder);
+
 class CheckpointStore {
  public:
   /// A run that begins anew removes those of an older run; one that goes on from one of the folder keeps them.

@@ -94,7 +94,7 @@ double read_one(const SimulationOf<Real>& m, const Probe& probe, int target) {
     case Probe::Kind::velocity: return p.v[axis][position_of(p, target)];
     case Probe::Kind::stress: return component(ParticleStress(p, m.scene).cauchy(position_of(p, target)), probe);
     case Probe::Kind::reaction: {
-      const Vec2 r = m.state.constraints.owners[static_cast<size_t>(target)].reaction;
+      const Vec2 r = m.state.constraints.owners[static_cast<size_t>(target)].mean.value;
       return (axis == 0 ? r.x : r.y) / probe.over;
     }
     case Probe::Kind::travel: {

@@ -40,7 +40,7 @@ void Recorder<Real>::row() {
   if (m_.plan.tractions)
     v.insert(v.end(), {e.cohesive, e.debonding});
   for (const ConstraintOwner& o : s.constraints.owners)
-    v.insert(v.end(), {o.travel.x, o.travel.y, o.reaction.x, o.reaction.y});
+    v.insert(v.end(), {o.travel.x, o.travel.y, o.mean.value.x, o.mean.value.y});
   if (m_.plan.growth)
     v.push_back(e.fracture);
   add_tip_values(s.tips, s.cracks, v);

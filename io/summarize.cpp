@@ -1,5 +1,10 @@
 #include "io/summarize.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <variant>
+
 #include "core/scene/names.hpp"
 #include "io/peak_memory.hpp"
 #include "io/tip_report.hpp"
@@ -8,9 +13,36 @@ namespace riven {
 
 namespace {
 
+/// Rectangles whose edges lie between particles hold what the particles do, and not what was drawn.
+template <class Real>
+void warn_of_edges(const SimulationOf<Real>& m, std::vector<Summary::Warning>& list) {
+  constexpr double most = 0.02;  // of the area
+  const auto& p = m.state.particles;
+  std::vector<double> area(m.scene.bodies.size());
+  std::vector<long> count(m.scene.bodies.size());
+  for (long i = 0; i < p.count(); ++i) {
+    area[p.body[i]] += p.mass[i] * m.state.specific_area[p.body[i]];
+    ++count[p.body[i]];
+  }
+  for (size_t b = 0; b < area.size(); ++b) {
+    const Body& body = m.scene.bodies[b];
+    const auto* drawn = std::get_if<Rectangle>(&body.region);
+    if (!drawn || !body.holes.empty())
+      continue;
+    const Vec2 size = drawn->upper - drawn->lower;
+    const double more = area[b] / (size.x * size.y) - 1;
+    if (std::abs(more) > most)
+      list.push_back({fmt::format("the edges of body '{}' lie between particles: they make up {:.0f} % {} than its "
+                                  "rectangle; cells that divide its sides would not",
+                                  body.name, 100 * std::abs(more), more > 0 ? "more" : "less"),
+                      count[b], drawn->lower});
+  }
+}
+
 template <class Real>
 std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   std::vector<Summary::Warning> list;
+  warn_of_edges(m, list);
   const CrackFields& f = m.state.fields;
   if (f.warning_both_sides > 0)
     list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
@@ -69,7 +101,7 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   out.tips = summarize_tips(s.tips, s.cracks);
   out.cracks = summarize_cracks(s.cracks, s.tips);
   for (const ConstraintOwner& o : s.constraints.owners)
-    out.reactions.push_back({o.name, o.reaction});
+    out.reactions.push_back({o.name, o.mean.value});
   return out;
 }
 

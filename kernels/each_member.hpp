@@ -83,6 +83,10 @@ void each_member(ConstraintOwner& o, F&& f) {
   f("work", o.work);
   f("travel", o.travel);
   f("reaction", o.reaction);
+  f("mean_impulse", o.mean.impulse);
+  f("mean_time", o.mean.time);
+  f("mean_value", o.mean.value);
+  f("mean_averaged", o.mean.averaged);
 }
 
 template <class F>

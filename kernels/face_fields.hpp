@@ -174,7 +174,7 @@ class FaceFields {
     return range;
   }
 
-  static constexpr int around = 4;            ///< cells around the domain in which faces of its segments may lie
+  static constexpr int around = 6;            ///< cells around the domain in which faces that are asked for may lie
   static constexpr int margin = 3;            ///< cells around those nodes in which their particles may be
   static constexpr double least_area = 0.02;  ///< cells: a field with fewer particles says nothing
 

@@ -103,27 +103,32 @@ class FaceIntegral {
     const bool is_bent = s.turn > bent;
     task_.sums.bent = task_.sums.bent || is_bent;
     // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet_shut(clear_of_tip(s));
+    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet_shut(s);
     if (meeting.holds && !is_bent)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
       add_faces(s, is_bent ? meeting : Meeting{});
   }
 
-  /// A segment itself, or, next to the tip, where the grid has no stresses of faces, the first one behind it that is
-  /// far enough from there for its traction to be that of contact.
-  Segment clear_of_tip(const Segment& s) const {
-    const int step = task_.last ? -1 : 1, other = cracks_.end_point(task_.crack, !task_.last) - (task_.last ? 0 : 1);
+  /// A segment itself, or, nearer to the tip than so many cells, the first one behind it that is not.
+  Segment clear_of_tip(const Segment& s, double cells) const {
     Segment at = s;
-    while (at.k != other && norm(at.middle - task_.domain.tip) < disturbed * h_) {
-      at.k += step;
-      at.middle = middle_of(at.k);
+    while (norm(at.middle - task_.domain.tip) < cells * h_ && behind(at)) {
     }
+    return at;
+  }
+
+  /// Takes the next segment behind one of the tip's crack; false if there is none.
+  bool behind(Segment& at) const {
+    if (at.k == cracks_.end_point(task_.crack, !task_.last) - (task_.last ? 0 : 1))
+      return false;
+    at.k += task_.last ? -1 : 1;
+    at.middle = middle_of(at.k);
     const Vec2 along = view_.plane[at.k + 1] - view_.plane[at.k];
     at.length = norm(along);
     if (at.length > 0)
       at.normal = turned(along * (1 / at.length));
-    return at;
+    return true;
   }
 
   /// Both faces where they touch each other.
@@ -154,12 +159,33 @@ class FaceIntegral {
     return m;
   }
 
-  /// Those next to the tip go by the same one.
-  const Meeting& meet_shut(const Segment& s) {
-    if (last_met_ != s.k)
-      last_meeting_ = meet(s, shut);
-    last_met_ = s.k;
-    return last_meeting_;
+  /// Faces in line with their tip. Next to it stresses fall so steeply that what they are on a face is known no better
+  /// than to a tenth of what the tip makes of them, which is as much as friction. There friction is that of the first
+  /// place behind, and the pressure the mean of some, a cell apart, as nodes take turns in bearing it.
+  Meeting meet_shut(const Segment& s) {
+    const double half = half_length(), near = std::min(clear, half);
+    if (!(norm(s.middle - task_.domain.tip) < near * h_))
+      return meet(s, shut);
+    if (near_tip_)
+      return *near_tip_;
+    Segment at = clear_of_tip(s, near);
+    near_tip_ = meet(at, shut);
+    const Vec2 n = at.normal;
+    const double pressure = dot(near_tip_->traction, n);
+    double sum = pressure;
+    int count = 1;
+    for (double cells = near + 1; near_tip_->holds && count < places && cells <= half; ++cells, ++count) {
+      at = clear_of_tip(at, cells);
+      sum += dot(meet(at, shut).traction, at.normal);
+    }
+    near_tip_->traction += (sum / count - pressure) * n;
+    return *near_tip_;
+  }
+
+  /// Cells from the tip to the middle between it and the other one, or to the other end.
+  double half_length() const {
+    const double length = norm(view_.plane[cracks_.end_point(task_.crack, !task_.last)] - task_.domain.tip) / h_;
+    return cracks_.is_open(task_.crack, !task_.last) ? 0.5 * length : length;
   }
 
   void add_faces(const Segment& s, const Meeting& meeting) {
@@ -189,7 +215,7 @@ class FaceIntegral {
   /// That next to a face of the tip's own crack: kinetic, and of the tension t along it, which is all that the solid
   /// bears there, t^2 / 2E.
   std::optional<double> own_energy(const Segment& s, Side side) {
-    const Segment at = clear_of_tip(s);
+    const Segment at = clear_of_tip(s, disturbed);
     FaceValues face;
     if (!fields_.at(middle_of_face(at.k, side), at.crack, at.middle, at.normal, side, face))
       return std::nullopt;
@@ -220,7 +246,9 @@ class FaceIntegral {
   static constexpr double straight = 1e-3;  ///< sine of the angle to the tip's heading up to which a face is in line
   static constexpr double bent = 0.2;       ///< and from which on the crack is bent for the interaction integral
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
-  static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field
+  static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
+  static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction
+  static constexpr int places = 4;          ///< at which it is looked for instead
   /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
   /// have opened by little at any tip while nodes next to it may still touch.
   static constexpr double touching = 0.05, shut = 1e-3;
@@ -232,8 +260,7 @@ class FaceIntegral {
   TipTask& task_;
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;
-  int last_met_ = -1;
-  Meeting last_meeting_;
+  std::optional<Meeting> near_tip_;  ///< once asked for
 };
 
 }  // namespace riven

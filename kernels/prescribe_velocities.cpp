@@ -278,6 +278,7 @@ void settle_constraints(const exec::Space& space, const Plan& plan, double early
   book_capture(space, plan, early_impulse, s);
   for (ConstraintOwner& o : c.owners) {
     o.reaction = (1 / s.clock.dt) * o.impulse;
+    o.mean.add(o.impulse, s.clock.dt);
     s.ledger.momentum.impulse += o.impulse;
     s.ledger.momentum.torque_impulse += o.torque_impulse;
     s.ledger.energy.external_work += o.work_now;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/exec/parallel.hpp"
+#include "core/scene/schedule.hpp"
 #include "kernels/advance_grid.hpp"
 #include "kernels/apply_loads.hpp"
 #include "kernels/bridge_step.hpp"
@@ -159,8 +160,13 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
       [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
-  add(p.constraints, "boundary: reactions", "boundary",
-      [](Simulation& m) { settle_constraints(m.space, m.plan, m.early_impulse(), m.state); });
+  add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {
+    const Clock& c = m.state.clock;
+    settle_constraints(m.space, m.plan, m.early_impulse(), m.state);
+    if (report_due(m.scene, c.time, c.time + c.dt))
+      for (ConstraintOwner& o : m.state.constraints.owners)
+        o.mean.take(0.5 * row_interval(m.scene));
+  });
   return list;
 }
 

@@ -18,6 +18,31 @@ struct Constraint {
   std::int16_t owner[2];  ///< whose reaction each component is
 };
 
+/// A force averaged over the steps from one row of the history to the next, as that of one step alone swings with the
+/// nodes that a grip comes to touch or leaves.
+struct MeanForce {
+  Vec2 impulse;         ///< since the last row, N s
+  double time = 0;      ///< since then, s
+  Vec2 value;           ///< at the last row, N
+  double averaged = 0;  ///< s, over which
+
+  void add(Vec2 more, double dt) {
+    impulse += more;
+    time += dt;
+  }
+  /// At a row. After less than `least` s, as at the end of a run, the time before counts, too.
+  void take(double least) {
+    if (time < least && averaged > 0) {
+      impulse += averaged * value;
+      time += averaged;
+    }
+    value = time > 0 ? (1 / time) * impulse : Vec2{};
+    averaged = time;
+    impulse = {};
+    time = 0;
+  }
+};
+
 /// Who prescribes: one entry for each [[fix]], [[symmetry]] and [[grip]].
 struct ConstraintOwner {
   std::string name;
@@ -30,6 +55,7 @@ struct ConstraintOwner {
   double work = 0;            ///< done on the body so far, J
   Vec2 travel;                ///< how far it has moved, m
   Vec2 reaction;              ///< force of the last step, N
+  MeanForce mean;             ///< the same, as results report it
   Vec2 move(double dt) const { return 0.5 * dt * Vec2{now[0] + next[0], now[1] + next[1]}; }
 };
 

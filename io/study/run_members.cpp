@@ -117,8 +117,9 @@ class Runner {
   void begin(size_t r) {
     const fs::path to = folder(r);
     make_folder(to);
-    std::vector<std::string> command{own_program().string(),  "run", scene_, "-o", to.string(), "--quiet", "--threads",
-                                     std::to_string(threads_)};
+    std::vector<std::string> command{
+        own_program().string(),  "run", scene_, "-o", to.string(), "--quiet", "--overwrite", "--threads",
+        std::to_string(threads_)};
     for (const std::string& s : runs_[r].set)
       command.insert(command.end(), {"--set", s});
     under_way_[children_.start(command, to / "messages.txt")] = r;

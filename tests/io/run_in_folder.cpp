@@ -145,6 +145,20 @@ TEST(RunInFolder, ASecondRunIsRefusedAndNamesTheFirst) {
   EXPECT_EQ(sample::leftovers(run.results()), 0);
 }
 
+TEST(RunInFolder, AnInterruptedRunIsNotBegunAnewUnlessToldTo) {
+  const LongRun run;
+  const Program first(run.arguments({"--wall-limit", "300 ms"}), run.printed());
+  run.expect(first.end(), 5, {});
+  const std::string history = sample::text_of(run.results() / "history.csv");
+  const long steps = run.summary()["steps"];
+  const Program second(run.arguments({"--wall-limit", "50 ms"}), run.printed());
+  run.expect(second.end(), 4, {"--restart " + run.results().string(), "--overwrite"});
+  EXPECT_EQ(sample::text_of(run.results() / "history.csv"), history);
+  const Program third(run.arguments({"--wall-limit", "50 ms", "--overwrite"}), run.printed());
+  run.expect(third.end(), 5, {"the wall limit"});
+  EXPECT_LT(run.summary()["steps"], steps);
+}
+
 TEST(RunInFolder, ARestartIntoAnotherFolderTakesAlongWhatThereIs) {
   const LongRun run;
   const Program first(run.arguments({"--wall-limit", "300 ms", "--set", "output.frames=1000000"}), run.printed());

@@ -1,4 +1,6 @@
 // Each thing that can be wrong in a scene: the message names file, line and key, and says what was meant.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "tests/io/scene_text.hpp"
@@ -247,9 +249,19 @@ TEST_P(BadScene, SaysFileLineKeyAndWhatIsAllowed) {
 INSTANTIATE_TEST_SUITE_P(Scene, BadScene, ::testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
+/// More than a scene may have.
+std::string many_bodies() {
+  std::string text;
+  for (int k = 0; k < 256; ++k)
+    text += fmt::format(
+        "[[body]]\nmaterial = \"pmma\"\ndisk = {{ center = [\"{} mm\", \"9 mm\"], radius = \"1 mm\" }}\n", 60 + 3 * k);
+  return text;
+}
+
 TEST(BadSceneParts, EachIsRefused) {
   struct Extra {
-    const char *text, *what, *hint;
+    std::string text;
+    const char *what, *hint;
   };
   const Extra extras[] = {
       {"[[body]]\nname = \"plate\"\nmaterial = \"pmma\"\ndisk = { center = [\"9 mm\", \"9 mm\"], radius = \"1 mm\" }\n",
@@ -261,6 +273,10 @@ TEST(BadSceneParts, EachIsRefused) {
        "outside its body", "mm"},
       {"[[fix]]\nbox = { lower = [\"0.1 mm\", \"0 mm\"], upper = [\"0.2 mm\", \"1 mm\"] }\nvelocity_x = \"0 m/s\"\n",
        "no grid node", "grid line"},
+      {"[[fix]]\nname = \"top\"\nbox = { lower = [\"0 mm\", \"0 mm\"], upper = [\"0 mm\", \"9 mm\"] }\n"
+       "velocity_x = \"0 m/s\"\n",
+       "a grip and a fix have the same name", "each"},
+      {many_bodies(), "too many bodies", "at most 256"},
       {"[[load]]\nkind = \"force\"\nrectangle = { lower = [\"51 mm\", \"0 mm\"], upper = [\"52 mm\", \"9 mm\"] }\n"
        "force_x = \"1 N\"\n",
        "lies on no body", "particles"},

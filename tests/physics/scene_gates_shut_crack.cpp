@@ -12,14 +12,15 @@ namespace {
 
 using namespace gates;
 
-constexpr double mm = 1e-3, a = 8 * mm, p = 1e6, E = 2500e6;
+constexpr double mm = 1e-3, p = 1e6, E = 2500e6;
 
-Scene pressed_plate(double friction) {
+/// `a`: half the crack's length.
+Scene pressed_plate(double friction, double a) {
   Scene s =
       shipped("sent", {"grid.cell=1 mm", "grid.lower=[\"-34 mm\", \"-56 mm\"]", "grid.upper=[\"54 mm\", \"56 mm\"]",
                        "contact.law=coulomb", fmt::format("contact.friction={}", friction)});
   s.grips.clear();
-  s.grid_damping->value = 60e3;  // 1/s
+  s.grid_damping = TimeFunction{60e3, {}, ""};  // 1/s, all along: friction would hold what overshoots
   s.bodies[0].region = Rectangle{{-30 * mm, -30 * mm}, {30 * mm, 30 * mm}};
   const Vec2 t = std::sqrt(0.5) * Vec2{1, 1};
   s.cracks[0].points = {-a * t, a * t};
@@ -52,10 +53,10 @@ Tip mean_tip(Plate& plate, int contour) {
 }
 
 TEST(ShutCrack, SlidesAgainstItsFriction) {
-  constexpr double friction = 0.3, K_II = 0.5 * p * 0.158533;  // sqrt(pi a)
+  constexpr double friction = 0.3, a = 8 * mm, K_II = 0.5 * p * 0.158533;  // sqrt(pi a)
   double J_free = 0;
   for (const double mu : {0., friction}) {
-    Plate plate(pressed_plate(mu));
+    Plate plate(pressed_plate(mu, a));
     print("shut crack", plate.hold());
     for (const int contour : {4, 8, 12}) {
       const Tip tip = mean_tip(plate, contour);
@@ -74,6 +75,23 @@ TEST(ShutCrack, SlidesAgainstItsFriction) {
       report("shut crack: J with friction over that without", J / J_free, "(1 - mu)^2 = 0.49 +- 5 %");
       EXPECT_NEAR(J / J_free, (1 - mu) * (1 - mu), 0.05 * (1 - mu) * (1 - mu));
     }
+  }
+}
+
+/// Faces that are held may bear less than they could, and what they do bear is to be found wherever the tip lies
+/// between nodes: on one, and at 0.3 cells from one.
+TEST(ShutCrack, HoldsWhatItsFrictionBearsWhereverItsTipLies) {
+  constexpr double friction = 0.3;
+  for (const double along : {5.3 * mm, 6 * mm}) {
+    double K_II[2];
+    for (const double mu : {0., friction}) {
+      Plate plate(pressed_plate(mu, std::sqrt(2.) * along));
+      print("held crack", plate.hold());
+      K_II[mu > 0] = std::abs(mean_tip(plate, 8).M_II);
+    }
+    report(fmt::format("held crack, tip {:.1f} cells from a node: K_II over that without friction", along / mm),
+           K_II[1] / K_II[0], "1 - mu = 0.7 +- 5 %");
+    EXPECT_NEAR(K_II[1] / K_II[0], 1 - friction, 0.05 * (1 - friction));
   }
 }
 
