@@ -75,8 +75,8 @@ std::vector<study::Record> climb(const AdviseArguments& o, const std::string& fi
   });
   for (size_t k = 0; k < records.size(); ++k) {
     if (!records[k].done())
-      fail({Exit::unstable, "a run of the ladder failed", members.runs[k].label, records[k].message, "",
-            "see to that run first"});
+      fail({records[k].status == "refused" ? Exit::bad_input : Exit::unstable, "a run of the ladder failed",
+            members.runs[k].label, records[k].message, "", "see to that run first"});
     histories.push_back((store.results(members.runs[k]) / "history.csv").string());
   }
   return records;

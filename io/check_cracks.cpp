@@ -87,6 +87,17 @@ void check_traction(const Scene& s, const CrackLine& c, double spacing) {
            text(bounds(*c.traction->region)), "a region that the crack passes through");
 }
 
+/// The springs between faces are as wide as the scene is thick.
+void check_interface(const Scene& s, const CrackLine& c) {
+  if (c.contact.value_or(s.contact).law != ContactLaw::interface)
+    return;
+  for (const Body& b : s.bodies)
+    if (b.thickness > 0 && b.thickness != s.thickness)
+      refuse(s, "body " + b.name, "an interface takes the thickness of the scene, and a body has another",
+             fmt::format("{:.6g} mm", 1e3 * b.thickness), fmt::format("{:.6g} mm", 1e3 * s.thickness),
+             "solver.thickness, and none of the body's own");
+}
+
 }  // namespace
 
 void check_cracks(const Scene& s) {
@@ -99,6 +110,7 @@ void check_cracks(const Scene& s) {
     if (c.contact)
       check_contact(s, "crack " + c.name, *c.contact);
     check_waiting(s, c);
+    check_interface(s, c);
     for (size_t i = 0; i < c.points.size(); ++i) {
       const Vec2 p = c.points[i];
       if (i > 0 && norm(p - c.points[i - 1]) < 1e-9 * s.cell)

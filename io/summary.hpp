@@ -66,7 +66,7 @@ struct Summary {
   };
   struct Reaction {
     std::string grip;
-    Vec2 force;  ///< N, of the body on the grip
+    Vec2 force;  ///< N, on the body, averaged since the row of the history before
   };
 
   std::string scene, title;

@@ -34,6 +34,10 @@ double coarsest_cell(const Scene& s) {
       length += norm(c.points[k] - c.points[k - 1]);
     cell = std::min(cell, length / 4);
   }
+  for (const Load& l : s.loads) {  // a particle at least
+    const Rectangle box = bounds(l.region);
+    cell = std::min({cell, 2 * (box.upper.x - box.lower.x), 2 * (box.upper.y - box.lower.y)});
+  }
   return cell * (1 + 1e-9);
 }
 

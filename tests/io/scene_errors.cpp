@@ -284,6 +284,10 @@ TEST(BadSceneParts, EachIsRefused) {
        "traction_x = \"1 MPa\"\n",
        "no such component", "'force_x'"},
       {"[[load]]\nkind = \"pressure\"\n", "unknown name 'pressure'", "force, traction"},
+      {"[[body]]\nmaterial = \"pmma\"\ndisk = { center = [\"52 mm\", \"9 mm\"], radius = \"1 mm\" }\n"
+       "thickness = \"7 mm\"\n[[crack]]\npoints = [[\"9 mm\", \"9 mm\"], [\"19 mm\", \"9 mm\"]]\n"
+       "contact = { law = \"interface\", normal_stiffness = \"1 MPa/mm\", shear_stiffness = \"1 MPa/mm\" }\n",
+       "the thickness of the scene", "none of the body's own"},
       {"[[probe]]\nkind = \"crack_opening\"\ntarget = \"egde\"\n", "unknown name 'egde'", "'edge'"},
       {"[[probe]]\nkind = \"reaction\"\ntarget = \"tob\"\n", "unknown name 'tob'", "'top'"},
       {"[[probe]]\nkind = \"displacement\"\n", "missing key 'point'", "add point"},
