@@ -192,6 +192,27 @@ TEST(Stops, LeaveWhatTheTransferGivesBackOutOfGrowth) {
   EXPECT_THROW(m.take_stock(), Error);
 }
 
+/// Energy that contact gives, beyond what the transfer wears down at once, comes from nowhere although it is booked.
+TEST(Stops, CountWhatContactMakes) {
+  Scene s = resting_block();
+  s.bodies[0].spin = 1;
+  CrackLine& cut = s.cracks.emplace_back();
+  cut.name = "cut";
+  cut.points = {{0.2, 0.27}, {0.8, 0.27}};
+  const ChosenSpace space;
+  Simulation m(s, space);
+  m.step();
+  m.state.clock.step = 1000;
+  Energy& e = m.state.ledger.energy;
+  m.take_stock();
+  e.contact = -0.15 * e.largest;
+  EXPECT_NO_THROW(m.take_stock());
+  e.contact = -0.25 * e.largest;
+  expect_stop(trouble_of(m, 1), "contact makes energy", -1);
+  e.transfer = -e.contact;
+  EXPECT_NO_THROW(m.take_stock());
+}
+
 /// A block that flies at `speed` towards the wall of its grid, 50 mm away.
 std::string write_scene(const sample::Folder& folder, const std::string& speed, const std::string& more = "") {
   std::string path = (folder / "scene.toml").string();
