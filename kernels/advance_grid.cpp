@@ -11,9 +11,9 @@ namespace riven {
 inline namespace RIVEN_SIDE {
 
 template <class Real>
-void momenta_to_velocities(const exec::Space& space, State<Real, 2>& s, exec::Array<Real>& array) {
+void momenta_to_velocities(const exec::Space& space, State<Real, 2>& s) {
   const Real* mass = exec::data(std::as_const(s.grid.mass));
-  Real* q = exec::data(array);
+  Real* q = exec::data(s.grid.q);
   const Real least = Real(mass_cutoff(s));
   exec::parallel_for(space, "momenta to velocities", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
     const Real inverse = mass[n] > least ? Real(1) / mass[n] : Real(0);
@@ -46,6 +46,39 @@ void advance(const exec::Space& space, State<Real, 2>& s, double damping) {
 template <class Real>
 void advance_grid(const exec::Space& space, State<Real, 2>& s, bool from_velocity, double damping) {
   with_flag(from_velocity, [&](auto flag) { advance<decltype(flag)::value>(space, s, damping); });
+}
+
+namespace {
+
+template <bool MovesAgain, class Real>
+void make_again(const exec::Space& space, const int* flagged, double damping, State<Real, 2>& s) {
+  const Real *mass = exec::data(std::as_const(s.grid.mass)), *q = exec::data(std::as_const(s.grid.q));
+  Real* again = exec::data(s.grid.again);
+  const Real least = Real(mass_cutoff(s)), dt = Real(s.clock.dt), slowed = Real(0.5 * (1 - damping * s.clock.dt));
+  const long nodes = s.grid.lattice.nodes();
+  exec::parallel_for(space, "velocities again", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
+    Real* to = again + 4 * n;
+    if (!(mass[n] > least)) {
+      to[0] = to[1] = 0;
+      return;
+    }
+    const Real inverse = Real(1) / mass[n], vx = q[4 * n], vy = q[4 * n + 1];
+    const Real fx = vx - dt * q[4 * n + 2], fy = vy - dt * q[4 * n + 3];  // before the update
+    to[0] *= inverse;
+    to[1] *= inverse;
+    const bool by_grid = !MovesAgain || (flagged && (n >= nodes || flagged[n] >= 0));
+    to[2] = by_grid ? Real(0.5) * vx + slowed * fx : Real(0.5) * (to[0] + fx);
+    to[3] = by_grid ? Real(0.5) * vy + slowed * fy : Real(0.5) * (to[1] + fy);
+  });
+}
+
+}  // namespace
+
+template <class Real>
+void velocities_again(const exec::Space& space, const Plan& plan, double particle_damping, State<Real, 2>& s) {
+  const int* flagged = plan.contact_slides ? exec::data(std::as_const(s.fields.node_index)) : nullptr;
+  with_flag(plan.moves_again(),
+            [&](auto flag) { make_again<decltype(flag)::value>(space, flagged, particle_damping, s); });
 }
 
 namespace {
@@ -115,9 +148,10 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
   return sums;
 }
 
-#define RIVEN_ADVANCE_GRID(Real)                                                                \
-  template void momenta_to_velocities(const exec::Space&, State<Real, 2>&, exec::Array<Real>&); \
-  template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);                \
+#define RIVEN_ADVANCE_GRID(Real)                                                            \
+  template void momenta_to_velocities(const exec::Space&, State<Real, 2>&);                 \
+  template void velocities_again(const exec::Space&, const Plan&, double, State<Real, 2>&); \
+  template void advance_grid(const exec::Space&, State<Real, 2>&, bool, double);            \
   template GridSums grid_sums(const exec::Space&, const State<Real, 2>&, double);
 RIVEN_EACH_REAL(RIVEN_ADVANCE_GRID)
 #undef RIVEN_ADVANCE_GRID

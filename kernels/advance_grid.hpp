@@ -2,6 +2,7 @@
 //   a = f / m - kappa v,   v~ = p / m + a dt.
 #pragma once
 #include "core/exec/space.hpp"
+#include "core/plan/plan.hpp"
 #include "core/state/state.hpp"
 
 namespace riven {
@@ -27,13 +28,19 @@ struct GridSums {
   }
 };
 
-/// q: [px py . .] -> [vx vy . .] in all slots; slots without mass become zero. For Grid::q and Grid::again.
+/// Grid::q: [px py . .] -> [vx vy . .] in all slots; slots without mass become zero.
 template <class Real>
-void momenta_to_velocities(const exec::Space&, State<Real, 2>&, exec::Array<Real>& q);
+void momenta_to_velocities(const exec::Space&, State<Real, 2>&);
 
 /// q: [px py fx fy], or [vx vy fx fy] when `from_velocity`, -> [v~x v~y ax ay].
 template <class Real>
 void advance_grid(const exec::Space&, State<Real, 2>&, bool from_velocity, double damping);
+
+/// Grid::again: [px py . .] -> [v' w] in all slots, w being what particles move by: from Grid::q = [v~ a] and v = v~ -
+/// a dt that is (v + v')/2 (Plan::moves_again) or, around faces that may slide and with FLIP, v~ - (a + b v) dt / 2, b
+/// the particle damping.
+template <class Real>
+void velocities_again(const exec::Space&, const Plan&, double particle_damping, State<Real, 2>&);
 
 /// Sums over the step's start and end, once velocities and accelerations are constrained.
 template <class Real>

@@ -63,7 +63,7 @@ RIVEN_FN bool spread(const Extrapolation<Shape, Real>& from, const CrackView& cr
 template <class Shape, class Real>
 void apply_tractions(const exec::Space& space, ScatterKind kind, State<Real, 2>& s, exec::Array<PointForces>& forces) {
   const exec::Array<Vec2> on_faces = face_forces(space, s.clock.time, s.cracks);
-  const Extrapolation<Shape, Real> from(s.grid, s.cracks, s.fields, s.clock.dt);
+  const Extrapolation<Shape, Real> from(s.grid, false, s.cracks, s.fields, s.clock.dt);
   const CrackView cracks = crack_view(s.cracks);
   const long points = cracks.points;
   const double least = mass_cutoff(s);
@@ -87,21 +87,25 @@ void apply_tractions(const exec::Space& space, ScatterKind kind, State<Real, 2>&
 }
 
 template <class Real>
-void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& forces, State<Real, 2>& s) {
+void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& forces, bool moves_again,
+                      State<Real, 2>& s) {
+  const Grid<Real>& grid = s.grid;
   exec::Array<double> powers(forces.size());
-  exec::launch_some(space, forces.size(), points_of_task,
-                    [force = exec::data(forces), power = exec::data_to_fill(powers),
-                     q = exec::data(std::as_const(s.grid.q)), dt = s.clock.dt] RIVEN_KERNEL(long k) {
-                      double sum = 0;
-                      for (int side = 0; force[k].applied && side < 2; ++side) {
-                        const PointForces::Surface& at = force[k].surface[side];
-                        for (int n = 0; n < PointForces::nodes; ++n) {
-                          const Real* v = q + 4L * at.slot[n];
-                          sum += dot(at.force[n], Vec2{v[0] - 0.5 * dt * v[2], v[1] - 0.5 * dt * v[3]});
-                        }
-                      }
-                      power[k] = sum;
-                    });
+  exec::launch_some(
+      space, forces.size(), points_of_task,
+      [force = exec::data(forces), power = exec::data_to_fill(powers),
+       q = exec::data(moves_again ? grid.again : grid.q), moves_again, dt = s.clock.dt] RIVEN_KERNEL(long k) {
+        double sum = 0;
+        for (int side = 0; force[k].applied && side < 2; ++side) {
+          const PointForces::Surface& at = force[k].surface[side];
+          for (int n = 0; n < PointForces::nodes; ++n) {
+            const Real* v = q + 4L * at.slot[n];
+            sum += dot(at.force[n], moves_again ? Vec2{double(v[2]), double(v[3])}
+                                                : Vec2{v[0] - 0.5 * dt * v[2], v[1] - 0.5 * dt * v[3]});
+          }
+        }
+        power[k] = sum;
+      });
   book_tractions(powers, s.clock.dt, s.cracks, s.ledger.energy);
 }
 
@@ -110,7 +114,7 @@ void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& 
                                              exec::Array<PointForces>&);
 #define RIVEN_TRACTIONS(Real)                \
   RIVEN_EACH_SHAPE(RIVEN_TRACTIONS_OF, Real) \
-  template void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, State<Real, 2>&);
+  template void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, bool, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_TRACTIONS)
 #undef RIVEN_TRACTIONS
 #undef RIVEN_TRACTIONS_OF

@@ -32,10 +32,10 @@ inline namespace RIVEN_SIDE {
 template <class Shape, class Real>
 void apply_tractions(const exec::Space&, ScatterKind, State<Real, 2>&, exec::Array<PointForces>&);
 
-/// Once cracks have moved: books the work that pressures did and lets damage follow the openings. `grid.q` holds
-/// [vx vy ax ay].
+/// Once cracks have moved: books the work that pressures did and lets damage follow the openings. Grid::q holds
+/// [vx vy ax ay], or Grid::again [v w] where `moves_again` (Plan).
 template <class Real>
-void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, State<Real, 2>&);
+void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, bool moves_again, State<Real, 2>&);
 
 }  // namespace RIVEN_SIDE
 

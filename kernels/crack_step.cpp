@@ -51,7 +51,8 @@ void move_with_grid(SimulationOf<Real>& m) {
   auto& s = m.state;
   with_shape(m.plan.shape, [&](auto shape) {
     move_cracks<typename decltype(shape)::type>(
-        m.space, s.grid, s.fields, {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass},
+        m.space, s.grid, s.fields,
+        {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass, m.plan.cracks_move_again()},
         s.clock.dt, s.cracks);
   });
   tie_junctions(s.cracks, m.scene.cell);

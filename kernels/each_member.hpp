@@ -1,7 +1,7 @@
 // What a simulation is beside its scene: all that the next step or the results go by, and that is no function of the
 // scene and of the rest. Whoever stores a simulation, and whoever takes one up again, goes by this list.
 //
-// Not in it, as each step makes it anew: the grid, Particles::step, contact's sums, bridges, forces on points, extremes
+// Not in it, as each step makes it anew: the grid, contact's sums, bridges, forces on points, extremes
 // of det F. Crossings of particles and cracks are not either: found from nothing they are the same
 // (trace_crossings.hpp), once the lists are that go by where the cracks were when they were hashed. make_derived
 // (make_derived.hpp) makes what is left.

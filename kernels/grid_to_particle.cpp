@@ -79,19 +79,27 @@ RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, c
   });
 }
 
-/// New velocity of each lane; the move goes to `dx`, `dy`.
+/// Move of each lane, by its velocity of before.
 template <class Real>
-RIVEN_INLINE void update_motion(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
-                                const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
+RIVEN_INLINE void find_move(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+                            const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
+    // the grid's velocity is that after its acceleration, before the particle's damping
+    dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * (m.ax[k] + n.damping * p.vx[first + k]));
+    dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * (m.ay[k] + n.damping * p.vy[first + k]));
+    seen.moves(k, dx[k], dy[k]);
+  });
+}
+
+/// New velocity of each lane.
+template <class Real>
+RIVEN_INLINE void update_velocity(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+                                  const StepNumbers<Real>& n, TileWatch<Real>& seen) {
   if (n.keep != Real(1))
     wear_off(p, first, count, m, n, seen.worn);
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
     const Real vx = p.vx[i], vy = p.vy[i], bx = n.damping * vx, by = n.damping * vy;
-    // the grid's velocity is that after its acceleration, before the particle's damping
-    dx[k] = n.dt * (m.vx[k] - Real(0.5) * n.dt * (m.ax[k] + bx));
-    dy[k] = n.dt * (m.vy[k] - Real(0.5) * n.dt * (m.ay[k] + by));
-    seen.moves(k, dx[k], dy[k]);
     p.vx[i] = n.keep * (vx + n.dt * m.ax[k]) + (Real(1) - n.keep) * (m.hx[k] + n.high_dt * m.ax[k]) - n.dt * bx;
     p.vy[i] = n.keep * (vy + n.dt * m.ay[k]) + (Real(1) - n.keep) * (m.hy[k] + n.high_dt * m.ay[k]) - n.dt * by;
   });
@@ -119,7 +127,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient;
-  const WatchTiles<Real, true, Stress> see(s.watch, rule.keep != 1, n.compare);
+  const WatchTiles<Real, true, true, Stress> see(s.watch, rule.keep != 1, n.compare);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
@@ -141,7 +149,8 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                 each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
                   gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
                 });
-                update_motion(p, first, count, motion, n, dx, dy, seen);
+                find_move(p, first, count, motion, n, dx, dy, seen);
+                update_velocity(p, first, count, motion, n, seen);
                 exec::for_lanes(count, [&](int k) RIVEN_LANE {
                   p.x[first + k] += dx[k];
                   p.y[first + k] += dy[k];
@@ -151,6 +160,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
               }
             });
   watch_moves(s);
+  watch_velocities(s);
   if constexpr (Stress)
     watch_J(s);
 }
@@ -166,9 +176,8 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const StepNumbers<Real> n = numbers(s, rule);
-  const WatchTiles<Real, true, false> see(s.watch, rule.keep != 1, n.compare);
-  const TileRun<Real> tiles{
-      s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass, p.step_x, p.step_y}, {q, again}}};
+  const WatchTiles<Real, false, true, false> see(s.watch, rule.keep != 1, n.compare);
+  const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
       [p, at, extra, q, high, again, nx, n] RIVEN_KERNEL(auto stretch, long begin, long end, const NodeTarget<Real>& to,
@@ -183,7 +192,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
             gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
           });
-          update_motion(p, first, count, motion, n, p.step_x + first, p.step_y + first, seen);
+          update_velocity(p, first, count, motion, n, seen);
           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
             const long i = first + k;
             const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
@@ -195,7 +204,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
           });
         }
       });
-  watch_moves(s);
+  watch_velocities(s);
 }
 
 }  // namespace

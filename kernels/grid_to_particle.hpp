@@ -5,6 +5,8 @@
 //   XPIC(k)   V' = S v(k)(p) + dt a
 //   FMPM(k)   V' = S v(k)(p~)
 //   position  x' = x + v~ dt - a dt^2 / 2
+// Where velocities are extrapolated a second time (MUSL, USAVG), positions change last, and but for FLIP and faces
+// that may slide by the mean of the velocities before and those extrapolated again (Plan::moves_again).
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
@@ -27,8 +29,8 @@ TransferRule transfer_rule(const Plan&, double pic_fraction, double particle_dam
 template <class Real>
 void grid_to_particle(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&, bool with_stress);
 
-/// Velocities only, and at once their momenta back to Grid::again by the old shape functions; the move is kept in
-/// Particles::step until the stresses are updated (MUSL, USAVG; Nairn 2003, task 6c).
+/// Velocities only, and at once their momenta back to Grid::again by the old shape functions (MUSL, USAVG; Nairn 2003,
+/// task 6c).
 template <class Real>
 void grid_to_particle_again(const exec::Space&, const Plan&, State<Real, 2>&, const TransferRule&);
 

@@ -52,7 +52,7 @@ RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackV
 template <class Shape, class Real>
 void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
                  double dt, Cracks& cracks) {
-  const Extrapolation<Shape, Real> from(grid, std::as_const(cracks), fields, dt);
+  const Extrapolation<Shape, Real> from(grid, rules.again, std::as_const(cracks), fields, dt);
   const CrackView at = crack_view(cracks);
   const long points = at.points;
   FoundMotions found;

@@ -21,7 +21,8 @@ namespace riven {
 
 inline namespace RIVEN_SIDE {
 
-/// `grid.q` holds [vx vy ax ay], `fields` what determine_fields made in this step. Shape: that of the particles.
+/// Grid::q holds [vx vy ax ay], or Grid::again [v w] where the rules go by it, `fields` what determine_fields made in
+/// this step. Shape: that of the particles.
 template <class Shape, class Real>
 void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFields& fields, CrackRules rules,
                  double dt, Cracks& cracks);

@@ -22,15 +22,18 @@ struct Extrapolation {
   static constexpr int off_grid = -1;
 
   SurfaceView view;
-  const Real *mass, *q;      ///< Grid
+  const Real* mass;          ///< Grid
+  const Real* q;             ///< Grid::q, or Grid::again
+  bool again;                ///< the latter
   const int* extra;          ///< CrackFields
   const std::uint8_t* held;  ///< CrackFields
   double inv_h, dt;
 
-  Extrapolation(const Grid<Real>& grid, const Cracks& cracks, const CrackFields& fields, double dt_)
+  Extrapolation(const Grid<Real>& grid, bool by_again, const Cracks& cracks, const CrackFields& fields, double dt_)
       : view(surface_view(grid.lattice, cracks, fields)),
         mass(exec::data(grid.mass)),
-        q(exec::data(grid.q)),
+        q(exec::data(by_again ? grid.again : grid.q)),
+        again(by_again),
         extra(exec::data(fields.extra)),
         held(exec::data(fields.held)),
         inv_h(1 / grid.lattice.h),
@@ -68,10 +71,24 @@ struct Extrapolation {
   RIVEN_INLINE bool on_grid(int i, int j) const {
     return i >= 0 && j >= 0 && i + width <= view.lattice.nx && j + width <= view.lattice.ny;
   }
+  /// [vx vy ax ay] of a slot: of Grid::again = [v w], w the mean over the step, a = 2 (v - w) / dt.
+  RIVEN_INLINE Quad<Real> motion(long slot) const {
+    const Real* m = q + 4 * slot;
+    if (!again)
+      return quad_at<Real>(m);
+    const Real twice = Real(2 / dt);
+    return Quad<Real>{m[0], m[1], twice * (m[0] - m[2]), twice * (m[1] - m[3])};
+  }
   /// Adds node (i, j) of those around a point, of mass m and the given motion [vx vy ax ay].
   RIVEN_INLINE void add(SurfaceSums& sums, const Around& at, int i, int j, const Real* motion, double m) const {
     const Vec2 a{double(motion[2]), double(motion[3])}, v{motion[0] - dt * a.x, motion[1] - dt * a.y};
     sums.add(m * at.x.near[i] * at.y.near[j], m * at.x.wide[i] * at.y.wide[j], at.x.r[i], at.y.r[j], v, a);
+  }
+
+  RIVEN_INLINE void add_slot(SurfaceSums& sums, const Around& at, int i, int j, long slot) const {
+    alignas(4 * sizeof(Real)) Real m[4];
+    quad_at<Real>(m) = motion(slot);
+    add(sums, at, i, j, m, double(mass[slot]));
   }
 
   /// Asks for the nodes around a point some steps ahead, and, once those are known, for what they say of cracks: the
@@ -134,7 +151,7 @@ struct Extrapolation {
     to.y[lane] = x.y;
     for (int n = 0; n < width * width; ++n) {
       const int there = std::max(slot[n], 0);
-      quad_at<Real>(to.q[n][lane]) = quad_at<Real>(q + 4L * there);
+      quad_at<Real>(to.q[n][lane]) = motion(there);
       to.mass[n][lane] = slot[n] < 0 ? Real(0) : mass[there];
     }
   }
@@ -167,11 +184,9 @@ struct Extrapolation {
       for (int i = 0; i < width; ++i) {
         const int node = first + j * view.lattice.nx + i, f = view.node_index[node];
         const int cracks = f < 0 ? 0 : held[f];
-        add(sums, at, i, j, q + 4L * node, mass[node]);
-        for (int field = 0; field < (1 << cracks) - 1; ++field) {
-          const long slot = long{view.lattice.nodes()} + extra[node] + field;
-          add(sums, at, i, j, q + 4 * slot, mass[slot]);
-        }
+        add_slot(sums, at, i, j, node);
+        for (int field = 0; field < (1 << cracks) - 1; ++field)
+          add_slot(sums, at, i, j, long{view.lattice.nodes()} + extra[node] + field);
       }
     return fit_motion(sums, view.lattice.h);
   }

@@ -121,7 +121,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   });
   add_contact(true, "contact before", "contact", contact_before_update<Real>);
   add(p.fracture, "bridge tips before", "J", bridge_before_update<Real>);
-  add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.q); });
+  add(before, "velocities", "", [](Simulation& m) { momenta_to_velocities(m.space, m.state); });
   add(before, "stress before, forces", "",
       [](Simulation& m) { update_stress_and_forces(m.space, m.plan, m.state, m.gravity()); });
   add(p.loads, "loads", "loads", [](Simulation& m) { apply_loads(m.space, m.plan, m.state); });
@@ -151,13 +151,13 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add_contact(again, "contact again", "contact", contact_after_extrapolation<Real>);
   add(again && p.fracture, "bridge tips again", "J", bridge_after_extrapolation<Real>);
   add(again, "velocities again", "",
-      [](Simulation& m) { momenta_to_velocities(m.space, m.state, m.state.grid.again); });
+      [](Simulation& m) { velocities_again(m.space, m.plan, m.particle_damping(), m.state); });
   add_impulses("energy of impulses", book_impulses<Real>);
   add(again, "stress after, move", "", [](Simulation& m) { update_stress_and_move(m.space, m.plan, m.state); });
   add(p.contact_waits, "watch contact", "contact", watch_contact<Real>);
   add(p.cracks, "move cracks", "cracks", move_with_grid<Real>);
   add(p.tractions, "tractions: work and damage", "tractions",
-      [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.state); });
+      [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.plan.cracks_move_again(), m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {

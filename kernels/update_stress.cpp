@@ -50,7 +50,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const BodyLookup<Law> law = laws<Law>(s);
-  const WatchTiles<Real, false, true> see(s.watch);
+  const WatchTiles<Real, false, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
@@ -93,30 +93,38 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s);
   const BodyLookup<Law> law = laws<Law>(s);
-  const WatchTiles<Real, false, true> see(s.watch);
+  const WatchTiles<Real, true, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
-  const TileRun<Real> tiles{
-      s.particles.tiles,
-      s.grid.lattice,
-      extra,
-      {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.step_x, p.step_y, p.sxx, p.syy, p.sxy}, {again}}};
+  const TileRun<Real> tiles{s.particles.tiles,
+                            s.grid.lattice,
+                            extra,
+                            {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.sxx, p.syy, p.sxy}, {again}}};
   each_tile(space, "stress after, move", tiles, see,
             [p, at, law, again, nx, step] RIVEN_KERNEL(auto stretch, long begin, long end, TileWatch<Real>& seen)
                 RIVEN_LANE {
                   Block<Real, Shape> w;
                   GradientLanes<Real> gradient;
+                  alignas(64) Real wx[L], wy[L];
                   for (long first = begin; first < end; first += L) {
                     const int count = static_cast<int>(std::min<long>(L, end - first));
                     ask_ahead(stretch, first);
                     w.weigh(at, first);
-                    gather_gradients(w, stretch, first, count, again, nx, gradient);
+                    each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                      const Gathered<Real> g = gather_from<true>(w, k, again, nx, slots);
+                      gradient.set(k, g);
+                      wx[k] = g.value[2];
+                      wy[k] = g.value[3];
+                    });
                     update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
                     exec::for_lanes(count, [&](int k) RIVEN_LANE {
-                      p.x[first + k] += p.step_x[first + k];
-                      p.y[first + k] += p.step_y[first + k];
+                      const Real dx = step * wx[k], dy = step * wy[k];
+                      p.x[first + k] += dx;
+                      p.y[first + k] += dy;
+                      seen.moves(k, dx, dy);
                     });
                   }
                 });
+  watch_moves(s);
   watch_J(s);
 }
 

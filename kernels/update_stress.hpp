@@ -12,8 +12,7 @@ inline namespace RIVEN_SIDE {
 template <class Real>
 void update_stress_and_forces(const exec::Space&, const Plan&, State<Real, 2>&, Vec2 gravity);
 
-/// After the second extrapolation (MUSL, USAVG): strains from Grid::again = [vx vy . .], then particles move by
-/// Particles::step.
+/// After the second extrapolation (MUSL, USAVG): strains from Grid::again = [v w], then particles move by w.
 template <class Real>
 void update_stress_and_move(const exec::Space&, const Plan&, State<Real, 2>&);
 

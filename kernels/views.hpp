@@ -17,7 +17,6 @@ struct ParticleView {
   double *Fxx, *Fxy, *Fyx, *Fyy, *J;
   Real *sxx, *syy, *sxy;
   Real* mass;
-  Real *step_x, *step_y;
 };
 
 template <class Real>
@@ -25,7 +24,7 @@ ParticleView<Real> view(Particles<Real, 2>& p) {
   return {exec::data(p.x[0]), exec::data(p.x[1]),      exec::data(p.v[0]),      exec::data(p.v[1]),
           exec::data(p.F[0]), exec::data(p.F[1]),      exec::data(p.F[2]),      exec::data(p.F[3]),
           exec::data(p.J),    exec::data(p.stress[0]), exec::data(p.stress[1]), exec::data(p.stress[2]),
-          exec::data(p.mass), exec::data(p.step[0]),   exec::data(p.step[1])};
+          exec::data(p.mass)};
 }
 
 /// The same to be read.

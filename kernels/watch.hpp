@@ -35,8 +35,8 @@ struct TileWatch {
   RIVEN_INLINE void det_F(int k, Real other) { J[k] = J[k] < other ? J[k] : J[k] != J[k] ? J[k] : other; }
 };
 
-/// Where tiles put what they noticed, of moves and of det F.
-template <class Real, bool Moves, bool Dets>
+/// Where tiles put what they noticed: of moves, of how velocities changed, and of det F.
+template <class Real, bool Moves, bool Velocities, bool Dets>
 struct WatchTiles {
   using Seen = TileWatch<Real>;
   /// `wears`: the transfer takes energy, which is to be noticed.
@@ -52,6 +52,8 @@ struct WatchTiles {
   RIVEN_INLINE void put(int tile, const Seen* t, int count = 1) const {
     if constexpr (Moves)
       put_moves(tile, t, count);
+    if constexpr (Velocities)
+      put_velocities(tile, t, count);
     if constexpr (Dets)
       put_J(tile, t, count);
   }
@@ -66,6 +68,8 @@ struct WatchTiles {
       }
     move[tile] = most;
     finite[tile] = all;
+  }
+  RIVEN_INLINE void put_velocities(int tile, const Seen* seen, int count) const {
     if (apart) {
       Real far = 0;
       for (const Seen* t = seen; t < seen + count; ++t)
@@ -102,26 +106,36 @@ inline bool velocities_compared(long step) {
   return step % 16 == 0;
 }
 
-/// Largest move and drift since the last sort; NaN if any particle's move is not finite. Books what the transfer took.
+/// Largest move and drift since the last sort; NaN if any particle's move is not finite.
 template <class Real>
 void watch_moves(State<Real, 2>& s) {
   StepWatch& w = s.watch;
   const StepWatch& seen = s.watch;
   const exec::Array<int>& filled = std::as_const(s.particles.tiles.filled);
-  double move = 0, sum = 0, worn = 0;
+  double move = 0, sum = 0;
   for (int t : filled) {
     move = std::max(move, seen.tile_move[t]);
     sum += seen.tile_finite[t];
-    worn += seen.tile_worn[t];
-  }
-  s.ledger.energy.transfer += worn;
-  if (velocities_compared(s.clock.step)) {
-    w.velocity_difference = 0;
-    for (int t : filled)
-      w.velocity_difference = std::max(w.velocity_difference, seen.tile_apart[t]);
   }
   w.largest_move = std::isfinite(sum) ? move : std::numeric_limits<double>::quiet_NaN();
   w.drift += w.largest_move;
+}
+
+/// Books what the transfer took, and notes how far velocities of particles and grid are apart.
+template <class Real>
+void watch_velocities(State<Real, 2>& s) {
+  const StepWatch& seen = s.watch;
+  const exec::Array<int>& filled = std::as_const(s.particles.tiles.filled);
+  double worn = 0;
+  for (int t : filled)
+    worn += seen.tile_worn[t];
+  s.ledger.energy.transfer += worn;
+  if (!velocities_compared(s.clock.step))
+    return;
+  double apart = 0;
+  for (int t : filled)
+    apart = std::max(apart, seen.tile_apart[t]);
+  s.watch.velocity_difference = apart;
 }
 
 /// Least det F; NaN if any is.

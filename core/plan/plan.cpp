@@ -61,6 +61,7 @@ Plan make_plan(const Scene& scene) {
       p.contact_area |= law == ContactLaw::interface;
       if (law == ContactLaw::bonded)
         continue;
+      p.contact_slides |= law != ContactLaw::interface;
       p.contact_volume |= scene.contact_rules.detection == ContactDetection::volume;
       p.contact_position |=
           scene.contact_rules.detection == ContactDetection::displacement || law == ContactLaw::interface;

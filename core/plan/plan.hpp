@@ -28,6 +28,7 @@ struct Plan {
   // effects
   bool cracks = false;
   bool contact = false;           ///< some crack's faces may touch
+  bool contact_slides = false;    ///< and slide: neither bonded nor held by an interface
   bool contact_volume = false;    ///< detection by volume, or interpenetration statistics, asks for nodal volumes
   bool contact_position = false;  ///< detection by displacement, or an interface law, asks for positions
   bool contact_waits = false;     ///< contact.when = "auto": tried now and then until faces touch
@@ -46,6 +47,14 @@ struct Plan {
   bool stress_after() const { return update != StressUpdate::usf; }
   bool averaged() const { return update == StressUpdate::usavg; }
   bool extrapolate_again() const { return update == StressUpdate::musl || update == StressUpdate::usavg; }
+  /// Particles move by the velocities that strain, before the step and extrapolated again. What particles take from the
+  /// grid goes through them once more before it strains: moved by the grid's own velocities, rows of particles at
+  /// loaded edges would creep while their stress stands. With FLIP the grid comes to rest there.
+  bool moves_again() const { return extrapolate_again() && transfer != Transfer::flip; }
+  /// The same for cracks and around them. Faces that may slide keep to the grid's own velocities: contact, which is
+  /// found by displacements, makes these the same on both sides. Moved otherwise, J of faces that are pressed together
+  /// is off by a tenth.
+  bool cracks_move_again() const { return moves_again() && !contact_slides; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
   /// From the third order on, a product with the full mass matrix costs less than passes over the particles.
   bool full_mass() const { return higher_order() && order > 2; }

@@ -50,7 +50,7 @@ struct Grid {
   Lattice lattice;
   exec::Array<Real> mass;       ///< [slots]
   exec::Array<Real> q;          ///< [4 slots]
-  exec::Array<Real> again;      ///< [4 slots] [px py . .], then [vx vy . .], of the second extrapolation (MUSL, USAVG)
+  exec::Array<Real> again;      ///< [4 slots] [px py . .] of the second extrapolation (MUSL, USAVG), then [v w]
   exec::Array<Real> high;       ///< [4 slots] [vx vy . .], higher-order velocity (XPIC, FMPM)
   exec::Array<Real> term;       ///< [4 slots] one term of the higher-order series
   exec::Array<Real> next;       ///< [4 slots] the term after it

@@ -119,9 +119,6 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   if (plan.first_positions())
     for (auto& a : p.x0)
       a.resize(n);
-  if (plan.extrapolate_again())
-    for (auto& a : p.step)
-      a.resize(n);
   for (long i = 0; i < n; ++i) {
     const Seed& seed = seeds[static_cast<size_t>(i)];
     p.x[0][i] = seed.x.x;
@@ -201,7 +198,6 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: stress", p.stress[0], p.stress[1], p.stress[2]);
   add("particles: mass", p.mass);
   add("particles: first position", p.x0[0], p.x0[1]);
-  add("particles: move of the step", p.step[0], p.step[1]);
   add("particles: body", p.body);
   add("particles: id", p.id);
   const CrackFields& f = s.fields;

@@ -34,7 +34,6 @@ struct Particles {
   exec::Array<Real> stress[symmetric];  ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
   exec::Array<Real> mass;               ///< kg
   exec::Array<double> x0[Dim];          ///< first position, m (displacement-based contact, probes)
-  exec::Array<Real> step[Dim];          ///< move of this step, applied after the stresses (MUSL, USAVG)
   exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
   exec::Array<int> id;                  ///< stable number, 0 .. n-1
   Tiles tiles;
@@ -59,8 +58,6 @@ struct Particles {
       some(a);
     some(mass);
     for (auto& a : x0)
-      some(a);
-    for (auto& a : step)
       some(a);
     some(body);
     some(id);

@@ -111,7 +111,7 @@ const EffectCase effects[] = {
      "",
      plain,
      [](Scene& s) { s.stress_update = StressUpdate::musl; },
-     {"grid: second extrapolation", "particles: move of the step"}},
+     {"grid: second extrapolation"}},
     {"deformation gradient",
      "",
      plain,
