@@ -103,7 +103,7 @@ TEST(EnergyBalance, NamesWhatTheTransferTakes) {
   }
 }
 
-/// A bar that is pulled by tractions and held at rest for 700 steps. Its edges lie on nodes and move 0.04 cells beyond
+/// A bar that is pulled by tractions and held at rest for 800 steps. Its edges lie on nodes and move 0.007 cells beyond
 /// them, so that nodes of tiny mass stand there.
 Scene held_bar(Transfer transfer, double pic_fraction, StressUpdate update) {
   constexpr double h = 2e-3, ramp = 0.06e-3, pull = 50e6;
