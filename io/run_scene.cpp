@@ -18,6 +18,7 @@
 #include "io/recorder.hpp"
 #include "io/stop_request.hpp"
 #include "io/summarize.hpp"
+#include "io/what_helps.hpp"
 #include "kernels/fragments.hpp"
 #include "kernels/time_step.hpp"
 
@@ -102,7 +103,9 @@ class Run {
       progress_->finish();
       if (e.code() != Exit::unstable)
         throw;
-      return e;
+      Trouble trouble = e.trouble();
+      trouble.suggestion = what_helps(trouble.suggestion, m_.scene);
+      return Error(std::move(trouble));
     }
     progress_->finish();
     return {};
@@ -187,7 +190,7 @@ class Run {
       fmt::print(stderr, "riven: warning: step {}, at ({:.4g}, {:.4g}) m: {}: {:.3g}{}{}\n", w.first, w.first_place.x,
                  w.first_place.y, text.what, w.worst, *text.unit ? " " : "", text.unit);
       fmt::print(stderr, "  limit: {:.3g} (limits.warn.{})\n  try:   {}\n",
-                 m_.scene.limits.warn[static_cast<size_t>(which)], name, text.advice);
+                 m_.scene.limits.warn[static_cast<size_t>(which)], name, what_helps(text.advice, m_.scene));
     }
     return any && m_.scene.output.checkpoint_every > 0;
   }

@@ -18,7 +18,8 @@ std::string where(const State<Real, 2>& s, long i) {
                      p.id[i], p.body[i] + 1, p.x[0][i], p.x[1][i]);
 }
 
-constexpr const char* cures = "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; shape = \"ugimp\"";
+constexpr const char* cures =
+    "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; solver.shape = \"ugimp\"";
 
 /// Fails with the particle's step, time and place.
 template <class Real>

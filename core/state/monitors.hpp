@@ -42,7 +42,7 @@ inline constexpr WatchedText watched_texts[watched_figures] = {
     {"a particle is stretched far (det F)", "", "growth or a crack where the body tears; smaller cells"},
     {"the faces of a crack overlap", "cells",
      "contact.detection = \"displacement\"; a smaller solver.cfl; smaller cells"},
-    {"a particle's velocity is far from the grid's", "m/s", "solver.transfer = \"fmpm\" or \"xpic\""}};
+    {"a particle's velocity is far from the grid's", "m/s", "solver.transfer = \"fmpm\" or \"xpic\"; smaller cells"}};
 
 inline constexpr const WatchedText& text_of(Watched which) {
   return watched_texts[static_cast<size_t>(which)];

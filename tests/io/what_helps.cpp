@@ -1,0 +1,29 @@
+#include "io/what_helps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/state/monitors.hpp"
+
+namespace riven {
+namespace {
+
+TEST(WhatHelps, LeavesOutWhatTheSceneHasAlready) {
+  Scene s;
+  s.stress_update = StressUpdate::usl;
+  s.transfer = Transfer::flip;
+  s.contact_rules.detection = ContactDetection::volume;
+  s.materials = {{"steel", LawKind::neo_hookean, 200e9, 0.3, 7850}, {"resin", LawKind::linear_elastic, 3e9, 0.3, 1200}};
+  for (const auto& text : watched_texts)
+    EXPECT_EQ(what_helps(text.advice, s), text.advice);
+  EXPECT_EQ(what_helps("", s), "");
+
+  s.stress_update = StressUpdate::usavg;
+  EXPECT_EQ(what_helps(text_of(Watched::energy).advice, s), "a smaller solver.cfl");
+  s.materials.pop_back();
+  EXPECT_EQ(what_helps(text_of(Watched::compression).advice, s), "smaller cells or a smaller solver.cfl");
+  s.contact_rules.detection = ContactDetection::displacement;
+  EXPECT_EQ(what_helps(text_of(Watched::penetration).advice, s), "a smaller solver.cfl; smaller cells");
+}
+
+}  // namespace
+}  // namespace riven
