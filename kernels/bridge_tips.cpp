@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/exec/parallel.hpp"
@@ -116,16 +115,16 @@ struct BridgeFinder {
 /// Tips whose nodes may be the same lie this near to each other, in cells.
 constexpr double shared_within = 6;
 
-/// Groups the tips that have to wait for each other; all of them on the host, which sees to one after the other.
+/// Tips that share nodes are bridged in turns: each bridge is the least change of momentum that meets it, and so is
+/// what many turns lead to that meets them all. One turn alone would make energy: the first bridge no longer holds
+/// where the second has acted. Until a turn changes so little of what the first did, or so many times.
+constexpr double settled = 1e-4;
+constexpr int most_turns = 100;
+
+/// Groups the tips that have to wait for each other.
 void group(const Cracks& cracks, const std::vector<Tip>& tips, double h, TipBridges& bridges) {
   const int count = static_cast<int>(tips.size());
   bridges.tip.resize(count);
-  if (exec::lanes > 1) {
-    std::iota(bridges.tip.begin(), bridges.tip.end(), 0);
-    bridges.start.resize(2);
-    bridges.start[1] = count;
-    return;
-  }
   bridges.start.resize(count + 1);
   int groups = 0, listed = 0;
   std::vector<Vec2> at;
@@ -161,11 +160,12 @@ class Bridging {
         nodes_(exec::data(std::as_const(s.fields.nodes))),
         dt_(s.clock.dt) {}
 
-  RIVEN_FN void across(TipBridge& bridge) const {
+  /// Returns the largest impulse, N s.
+  RIVEN_FN double across(TipBridge& bridge) const {
     Vec2 jumps[TipBridge::most];
     double reduced_mass[TipBridge::most];
     Vec2 behind, sum;
-    double mass = 0, all = 0, at_faces = 0;
+    double mass = 0, all = 0, at_faces = 0, largest = 0;
     for (int k = 0; k < bridge.count; ++k) {
       const BridgedPair& p = bridge.pair[k];
       const double ma = motion_.mass[p.above], mb = motion_.mass[p.below];
@@ -183,7 +183,7 @@ class Bridging {
       }
     }
     if (!(mass > 0))
-      return;
+      return 0;
     at_faces /= mass;
     const Vec2 W = (behind + at_faces * sum) * (1 / (mass + at_faces * at_faces * all));
     const Vec2 shift = W - behind * (1 / mass);
@@ -191,10 +191,12 @@ class Bridging {
       BridgedPair& p = bridge.pair[k];
       const Vec2 impulse = reduced_mass[k] * (p.share < 0 ? shift : (at_faces * p.share) * W - jumps[k]);
       if constexpr (stage == ContactStage::after)
-        p.force = impulse * (1 / dt_);
+        p.force += impulse * (1 / dt_);
+      largest = std::max(largest, norm(impulse));
       push(p, p.above, impulse);
       push(p, p.below, -impulse);
     }
+    return largest;
   }
 
  private:
@@ -214,10 +216,21 @@ template <ContactStage stage, class Real>
 void run(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, FieldImpulses& impulses) {
   const Bridging<Real, stage> bridging(s, impulses);
   const int *start = exec::data(std::as_const(bridges.start)), *tip = exec::data(std::as_const(bridges.tip));
-  exec::parallel_tasks(space, "bridge tips", bridges.start.size() - 1,
-                       [=, bridge = exec::data(bridges.of_tip)] RIVEN_KERNEL(long g) {
-                         for (int k = start[g]; k < start[g + 1]; ++k)
-                           bridging.across(bridge[tip[k]]);
+  const long groups = bridges.start.size() - 1;
+  const long each = exec::lanes > 1 ? groups : 1;  // too little for threads of the host to be woken for
+  exec::parallel_tasks(space, "bridge tips", exec::lanes > 1 ? 1 : groups,
+                       [=, bridge = exec::data(bridges.of_tip)] RIVEN_KERNEL(long task) {
+                         for (long g = task * each; g < (task + 1) * each; ++g) {
+                           double first = 0;
+                           for (int turn = 0; turn < most_turns; ++turn) {
+                             double largest = 0;
+                             for (int k = start[g]; k < start[g + 1]; ++k)
+                               largest = std::max(largest, bridging.across(bridge[tip[k]]));
+                             first = turn == 0 ? largest : first;
+                             if (start[g + 1] - start[g] == 1 || !(largest > settled * first))
+                               break;
+                           }
+                         }
                        });
 }
 

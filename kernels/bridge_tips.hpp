@@ -64,7 +64,7 @@ inline namespace RIVEN_SIDE {
 template <class Real>
 void list_bridges(const exec::Space&, const State<Real, 2>&, TipBridges&);
 
-/// Changes their motion, one tip of a group after the other, and notes the impulses.
+/// Changes their motion, the tips of a group in turns until they agree, and notes the impulses.
 template <class Real>
 void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&);
 
