@@ -61,7 +61,13 @@ class FaceFields {
     const int last = view_.start[crack + 1] - 1;
     const double reach = 1.6 * s_.grid.lattice.h;
     const bool tip = norm(middle - view_.plane[view_.start[crack]]) < reach || norm(middle - view_.plane[last]) < reach;
-    const CrackPoint point{crack, middle, normal, {}, tip, std::numeric_limits<double>::infinity()};
+    const CrackPoint point{.crack = crack,
+                           .x = middle,
+                           .left = normal,
+                           .beyond = {},
+                           .back = {},
+                           .tip = tip,
+                           .off = std::numeric_limits<double>::infinity()};
     SurfacePoint face{point, side, x, cell_of(x)};
     double area = 0;
     values = {};

@@ -47,12 +47,29 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
 /// A crack's point and the crack around it.
 struct CrackPoint {
   int crack;
-  Vec2 x;       ///< in the crack's plane
+  Vec2 x;       ///< in the crack's plane, where paths from it begin
   Vec2 left;    ///< normal, towards above
-  Vec2 beyond;  ///< direction in which the crack ends here, 0 unless the point is a tip
-  bool tip;     ///< a tip of the crack in reach of the nodes around the point
+  Vec2 beyond;  ///< direction in which the crack ends here, 0 unless the point is an end on no other crack
+  Vec2 back;    ///< from the point to x, 0 unless the point is an end on another crack
+  bool tip;     ///< an end of the crack in reach of the nodes around the point
   double off;   ///< a node further from the line along the point is to one side of the crack; infinite if it turns
 };
+
+/// Does a closed end of a crack lie on another crack, or on its own further along?
+inline RIVEN_FN bool end_on_crack(const SurfaceView& view, int end, int segment) {
+  const Lattice& l = view.lattice;
+  const Vec2 x = view.plane[end], X = (x - l.origin) * (1 / l.h);
+  const int i = static_cast<int>(std::floor(X.x)), j = static_cast<int>(std::floor(X.y));
+  const int seen = i < 0 || j < 0 || i >= l.nx || j >= l.ny ? -1 : view.cell_index[j * l.nx + i];
+  for (int at = seen < 0 ? 0 : view.cell_start[seen]; seen >= 0 && at < view.cell_start[seen + 1]; ++at) {
+    const int n = view.cell_segment[at];
+    const Vec2 a = view.plane[n], d = view.plane[n + 1] - a, r = x - a;
+    const double along = std::max(0.0, std::min(1.0, dot(r, d) / dot(d, d)));
+    if (n != segment && norm(r - along * d) < 1e-3 * l.h)
+      return true;
+  }
+  return false;
+}
 
 inline RIVEN_FN CrackPoint crack_point(const SurfaceView& view, int point) {
   const int crack = view.crack[point];
@@ -62,8 +79,8 @@ inline RIVEN_FN CrackPoint crack_point(const SurfaceView& view, int point) {
   const double length = norm(along), h = view.lattice.h, reach = 1.6 * h;
   const Vec2 t = length > 0 ? along * (1 / length) : Vec2{};
   if ((point == first && view.open[2 * crack]) || (point == last && view.open[2 * crack + 1]))
-    return {crack, x, turned(t), {}, true, std::numeric_limits<double>::infinity()};  // the line along it ends nearby
-  CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, false, 0};
+    return {crack, x, turned(t), {}, {}, true, std::numeric_limits<double>::infinity()};  // its line ends nearby
+  CrackPoint p{crack, x, turned(t), point == first ? -t : point == last ? t : Vec2{}, {}, false, 0};
   double bend = 0, back = length > 0 ? 0 : -1;
   for (int step = -1; step <= 1; step += 2) {
     int k = point + step;
@@ -79,6 +96,11 @@ inline RIVEN_FN CrackPoint crack_point(const SurfaceView& view, int point) {
   const double least = p.tip ? bend + 0.1 * h : 0.02 * h;  // what lies ahead of a tip takes a closer look
   p.off = back >= 0 && bend < 0.25 * h ? std::max(least, std::min(0.3 * h, 4 * bend + 0.02 * h))
                                        : std::numeric_limits<double>::infinity();
+  if ((point == first || point == last) && end_on_crack(view, point, point == first ? first : last - 1)) {
+    p.back = (-0.02 * h) * p.beyond;
+    p.beyond = {};
+    p.x += p.back;
+  }
   return p;
 }
 
@@ -137,29 +159,37 @@ RIVEN_INLINE SegmentRange segments_of(const SurfaceView& view, const SurfacePoin
   return {at, end};
 }
 
+/// A thousandth of a cell towards the surface's side.
+RIVEN_INLINE Vec2 aside(const SurfaceView& view, const SurfacePoint& s) {
+  return ((s.side == Side::above ? 1e-3 : -1e-3) * view.lattice.h) * s.own.left;
+}
+
 /// Does the line from the surface to n cross the point's own crack? It starts off the crack's point, by a thousandth of
 /// a cell. The surface itself may lie on the wrong side, where faces overlap, and a line from the point to a node in
 /// line with the crack, as those beyond the tip of a crack on a grid line, would run along the crack and cross it or
-/// not by rounding. To a node well off a straight crack it crosses at once, except past the tip that it starts from.
+/// not by rounding. To a node well off a straight crack it crosses at once, except past the end that it starts from;
+/// from an end on another crack, too, as it starts twenty times further back along the crack than off it.
 RIVEN_INLINE bool crosses_own(const SurfaceView& view, SurfacePoint& s, Vec2 n) {
   const Vec2 r = n - s.own.x;
-  const double off = dot(r, s.own.left), h = view.lattice.h;
+  const double off = dot(r, s.own.left);
   if (std::fabs(off) > s.own.off)
     return (off > 0) != (s.side == Side::above) && !(dot(r, s.own.beyond) > 0);
   s.look(view);
   const SegmentRange own = segments_of(view, s, s.own.crack);
-  const Vec2 from = s.own.x + ((s.side == Side::above ? 1e-3 : -1e-3) * h) * s.own.left;
-  return own.at < own.end && side_crossed(view, from, n, own.at, own.end) != Side::none;
+  return own.at < own.end && side_crossed(view, s.own.x + aside(view, s), n, own.at, own.end) != Side::none;
 }
 
-/// Adds what the other cracks in sight make of a field, or -1.
+/// Adds what the other cracks in sight make of a field, or -1. Where a crack goes on as another one, what does not
+/// cross the one near their common end crosses the other: both are seen from the same place.
 inline RIVEN_FN int cross_others(const SurfaceView& view, SurfacePoint& s, Vec2 n, const NodeCracks& held, int field) {
   s.look(view);
+  const bool on_crack = s.own.back.x != 0 || s.own.back.y != 0;
+  const Vec2 from = on_crack ? s.x + s.own.back + aside(view, s) : s.x;
   for (int at = s.first, end = at; at < s.last; at = end) {
     const int crack = view.crack[view.cell_segment[at]];
     while (end < s.last && view.crack[view.cell_segment[end]] == crack)
       ++end;
-    const Side side = crack == s.own.crack ? Side::none : side_crossed(view, s.x, n, at, end);
+    const Side side = crack == s.own.crack ? Side::none : side_crossed(view, from, n, at, end);
     if (side == Side::none)
       continue;
     const int m = held.which(crack);
