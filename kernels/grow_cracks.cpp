@@ -30,7 +30,7 @@ class Growth {
     const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
     rule_ = growth_rule(scene_, tip.crack);
     particle_ = scene_.cell / body.particles_per_cell;
-    thickness_ = body.thickness > 0 ? body.thickness : scene_.thickness;
+    thickness_ = s_.thickness[tip.body];
     limit_ = rule_->speed_limit > 0 ? rule_->speed_limit
                                     : rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
     now_ = s_.clock.time + s_.clock.dt;
@@ -75,27 +75,37 @@ class Growth {
   /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
   /// angle, within the cells that the least contour takes: what is left of the solid there none can tell about.
   std::optional<Vec2> way_out() const {
-    if (ends_within(ahead_, (0.5 * scene_.fracture.contour + 1) * scene_.cell))
+    if (length_out(ahead_, (0.5 * scene_.fracture.contour + 1) * scene_.cell))
       return ahead_;
     constexpr int angles = 5;
-    for (int k = 1; k <= angles; ++k)
-      for (const double sign : {1., -1.}) {
-        const double angle = sign * k * std::numbers::pi / (2 * angles);
-        const Vec2 way = std::cos(angle) * ahead_ + std::sin(angle) * turned(ahead_);
-        if (ends_within(way, 2.25 * scene_.cell))
-          return way;
-      }
+    for (int k = 1; k <= angles; ++k) {
+      const double angle = k * std::numbers::pi / (2 * angles);
+      const Vec2 on = std::cos(angle) * ahead_, aside = std::sin(angle) * turned(ahead_);
+      const Vec2 ways[2] = {on + aside, on - aside};
+      const std::optional<double> length[2] = {length_out(ways[0], 2.25 * scene_.cell),
+                                               length_out(ways[1], 2.25 * scene_.cell)};
+      if (length[0] || length[1])
+        return ways[!length[0] || (length[1] && *length[1] < *length[0])];
+    }
     return std::nullopt;
   }
 
-  /// Whether the edge of the solid, or another crack, lies within reach.
-  bool ends_within(Vec2 way, double reach) const {
-    if (first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0, boxes_))
-      return true;
-    for (double d = 0; d < reach; d += particle_)
-      if (!solid_ahead(s_, x_ + d * way, way, particle_))
-        return true;
-    return false;
+  /// How far away the edge of the solid, or another crack, is, m; none beyond reach.
+  std::optional<double> length_out(Vec2 way, double reach) const {
+    const auto obstacle = first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0, boxes_);
+    const auto outside = [&](double d) { return !solid_ahead(s_, x_ + d * way, way, particle_); };
+    const double limit = obstacle ? obstacle->distance : reach;
+    double d = 0;
+    while (d < limit && !outside(d))
+      d += particle_;
+    if (!(d < limit))
+      return obstacle ? std::optional(obstacle->distance) : std::nullopt;
+    double within = std::max(0., d - particle_);
+    for (int halving = 0; halving < 10; ++halving) {
+      const double middle = 0.5 * (within + d);
+      (outside(middle) ? d : within) = middle;
+    }
+    return d;
   }
 
   Tip* facing_tip() const {
