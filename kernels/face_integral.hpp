@@ -192,12 +192,15 @@ class FaceIntegral {
     const Vec2 first = cracks_.plane0[s.k + 1] - cracks_.plane0[s.k];
     if (s.length > torn * norm(first))
       return;
+    const bool own_meet = meeting.holds && s.crack == task_.crack;
+    if (own_meet)
+      task_.sums.faces -= (s.q * own_.work(s.k, meeting.traction)) * -turned(s.normal);
     for (const Side side : {Side::above, Side::below}) {
       const double out = side == Side::above ? -s.q : s.q;  // of the solid
       if (meeting.holds) {
         const double* E = meeting.face[side == Side::below].data() + face_eshelby;
-        const Vec2 n = (out * s.length) * s.normal;
-        task_.sums.faces += Vec2{E[0] * n.x + E[1] * n.y, E[2] * n.x + E[3] * n.y};
+        const Vec2 n = (out * s.length) * s.normal, released{E[0] * n.x + E[1] * n.y, E[2] * n.x + E[3] * n.y};
+        task_.sums.faces += own_meet ? dot(released, s.normal) * s.normal : released;
       } else if (const auto energy = s.crack == task_.crack ? own_energy(s, side) : energy_beside(s, side)) {
         task_.sums.faces += (out * *energy) * turned(first);
       }

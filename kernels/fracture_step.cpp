@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/exec/parallel.hpp"
@@ -23,7 +24,8 @@ namespace {
 /// beyond bounds, and a tip that speeds up would feed itself.
 constexpr double fastest_fields = 0.6;
 
-/// Share of an edge of the contour that must lie in the solid; less where the open crack itself passes.
+/// Share of an edge of the contour that must lie in the solid, besides the opening of the crack itself where it passes;
+/// there less will do where there is no room to draw the edge in.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
 
 /// Cells, the contour that says what drives a tip where the interaction integral of a larger one does not hold: it is
@@ -138,6 +140,7 @@ class JSearch {
     const Vec2 laid = heading_of(s_.cracks, tip, true);
     task.turn = {dot(laid, task.heading), cross(laid, task.heading)};
     task.solid = &solids_[static_cast<size_t>(tip.material)];
+    task.thickness = s_.thickness[tip.body];
     task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
     if (!m_.contact_sums.touched.empty())
       task.touched = m_.contact_sums.touched.data();
@@ -186,26 +189,32 @@ class JSearch {
     d.to_draw_in = false;
     for (int e = 0; e < 4; ++e) {
       const double filled = task.sums.filled[e];
-      if (filled >= least_filled || (filled >= least_filled_across && crosses(task, *d.tip, e)))
+      if (filled >= least_filled)
         continue;
-      d.settled = false;
+      const std::optional<double> opening = opening_within(task, *d.tip, e);
+      if (opening && filled + *opening / task.domain.length(e) >= least_filled)
+        continue;
       if (task.domain.reach[e] > 1.5 * h) {
         d.most[e] = std::max(h, task.domain.reach[e] - h);
         d.to_draw_in = true;
+        d.settled = false;
+      } else if (!opening || filled < least_filled_across) {
+        d.settled = false;
       }
     }
   }
 
-  /// Does the tip's own crack pass the band of an edge?
-  bool crosses(const TipTask& task, const Tip& tip, int edge) const {
-    const int end = s_.cracks.end_point(tip.crack, tip.last), other = s_.cracks.end_point(tip.crack, !tip.last);
+  /// The largest distance between the faces of the tip's own crack within the band of an edge; none where it does not
+  /// pass there. The tip itself is in no band, but by rounding.
+  std::optional<double> opening_within(const TipTask& task, const Tip& tip, int edge) const {
+    const Cracks& c = s_.cracks;
+    const int end = c.end_point(tip.crack, tip.last), other = c.end_point(tip.crack, !tip.last);
     const int step = tip.last ? -1 : 1;
-    for (int k = end; k != other + step; k += step) {
-      const Vec2 r = s_.cracks.plane[k] - task.domain.tip;
-      if (task.domain.at(r).slope(edge) > 0)
-        return true;
-    }
-    return false;
+    std::optional<double> most;
+    for (int k = end + step; k != other + step; k += step)
+      if (task.domain.at(c.plane[k] - task.domain.tip).slope(edge) > 0)
+        most = std::max(most.value_or(0), norm(c.upper[k] - c.lower[k]));
+    return most;
   }
 
   void note(const Due& d, const TipTask& task) {

@@ -38,6 +38,7 @@ struct TipTask {
   Vec2 turn{1, 0};          ///< cosine and sine of the angle by which the heading has turned since the crack was laid
   bool other_faces = true;  ///< asks for the faces of other cracks
   const PlaneElasticity* solid = nullptr;
+  double thickness = 1;  ///< m, of the solid
   RunningTip running;
   const std::uint8_t* touched = nullptr;  ///< ContactSums::touched; none: faces that are close may press on each other
   bool inertia = false;                   ///< asks for TipSums::inertia

@@ -53,17 +53,26 @@ class OwnFaces {
   /// Part of the longest segment that the middle of such a one is at most away from the middle of the one it cuts.
   static constexpr double reach() { return 1 + at_end; }
 
-  /// Does a segment bear tractions of a law?
-  bool bears(int k) const { return !cracks_.bearing.empty() && cracks_.bearing[k].y > 0; }
+  /// Does a segment, or a part of it, bear tractions of a law?
+  bool bears(int k) const {
+    return !cracks_.bearing.empty() && (cracks_.bearing[k].y > 0 || cracks_.bearing[k + 1].x > 0);
+  }
 
-  /// Those, of a segment.
+  /// Those, of a segment, each half of it as thick as it bears.
   void add_tractions(int k, double q) {
-    add(k, q, [this](int n) { return 0.5 * (traction_on(cracks_, n) + traction_on(cracks_, n + 1)); });
+    add(k, q, [this, each = 0.5 / task_.thickness](int n) {
+      return (each * cracks_.bearing[n].y) * traction_on(cracks_, n) +
+             (each * cracks_.bearing[n + 1].x) * traction_on(cracks_, n + 1);
+    });
   }
   /// And that of contact.
   void add_contact(int k, double q, Vec2 traction) {
     add(k, q, [traction](int) { return traction; });
   }
+
+  /// What a traction on a segment does as its faces go on from where they are at its first point to where they are at
+  /// its second, per thickness.
+  double work(int k, Vec2 traction) const { return dot(traction, opening_change(k)); }
 
   /// Notes how far behind the tip another crack first cuts the faces.
   void find_cut(int k, int cell) {
