@@ -10,7 +10,8 @@ namespace riven::checks {
 namespace {
 
 constexpr double most_segments = 1e7;
-constexpr double most_samples = 1e5;  // of all cracks together, to find one point in a body
+constexpr size_t most_compared = 10000;  // cracks, in pairs
+constexpr double most_samples = 1e5;     // of all cracks together, to find one point in a body
 
 bool solid(const Scene& s, Vec2 p) {
   return std::any_of(s.bodies.begin(), s.bodies.end(), [&](const Body& b) {
@@ -55,23 +56,49 @@ void check_waiting(const Scene& s, const CrackLine& c) {
            "contact.when = \"always\"");
 }
 
-/// Growth asked for must have a tip to grow from.
-void check_growth(const Scene& s) {
-  if (!s.growth &&
-      std::none_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth.has_value(); }))
+/// Does every point of a crack lie on another one?
+bool lies_on(const CrackLine& c, const CrackLine& other, double tolerance) {
+  return std::all_of(c.points.begin(), c.points.end(), [&](Vec2 x) {
+    for (size_t i = 1; i < other.points.size(); ++i) {
+      const Vec2 a = other.points[i - 1], d = other.points[i] - a;
+      if (norm(x - a - std::clamp(dot(x - a, d) / dot(d, d), 0., 1.) * d) < tolerance)
+        return true;
+    }
+    return false;
+  });
+}
+
+/// Faces of cracks that lie on each other are the same, and so are their ends, none of which is a tip then.
+void check_doubles(const Scene& s) {
+  if (s.cracks.size() > most_compared)
+    return;
+  for (const CrackLine& c : s.cracks)
+    for (const CrackLine& other : s.cracks)
+      if (&c != &other && lies_on(c, other, 0.01 * s.cell))
+        refuse(s, "crack " + c.name, "the crack lies on another one, crack " + other.name,
+               text(c.points.front()) + " to " + text(c.points.back()), "cracks that meet or cross, at most",
+               "only one of them");
+}
+
+/// Growth asked for must have a tip to grow from, and J one to be found at.
+void check_tips(const Scene& s) {
+  const bool cracks_grow = std::any_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth; });
+  if (!s.growth && !cracks_grow && !(s.fracture.asked && !s.cracks.empty()))
     return;
   const std::vector<Tip> tips = make_tips(s);
+  constexpr const char* wanted = "an end inside a body, off its border and off other cracks";
+  if (s.fracture.asked && tips.empty())
+    refuse(s, "fracture", "J and K are asked for but no crack has a tip in a body",
+           fmt::format("{} cracks", s.cracks.size()), wanted, "no [fracture]");
   for (int c = 0; c < static_cast<int>(s.cracks.size()); ++c) {
     const CrackLine& line = s.cracks[static_cast<size_t>(c)];
     if (line.growth && std::none_of(tips.begin(), tips.end(), [&](const Tip& t) { return t.crack == c; }))
       refuse(s, "crack " + line.name, "the crack is to grow but has no tip in a body",
-             text(line.points.front()) + " to " + text(line.points.back()),
-             "an end inside a body, off its border and off other cracks", "no growth for this crack");
+             text(line.points.front()) + " to " + text(line.points.back()), wanted, "no growth for this crack");
   }
   if (s.growth && std::none_of(tips.begin(), tips.end(), [](const Tip& t) { return t.grows; }))
     refuse(s, "growth", "cracks are to grow but none that may has a tip in a body",
-           fmt::format("{} cracks", s.cracks.size()), "an end inside a body, off its border and off other cracks",
-           "no [growth]");
+           fmt::format("{} cracks", s.cracks.size()), wanted, "no [growth]");
 }
 
 void check_traction(const Scene& s, const CrackLine& c, double spacing) {
@@ -131,7 +158,8 @@ void check_cracks(const Scene& s) {
     if (c.traction)
       check_traction(s, c, spacing);
   }
-  check_growth(s);
+  check_doubles(s);
+  check_tips(s);
 }
 
 }  // namespace riven::checks

@@ -167,10 +167,14 @@ void check_characters(const std::string& text) {
 
 [[noreturn]] void unreadable(const mu::ParserError& e, const std::string& text, const Constants& constants,
                              bool of_places) {
-  const std::string near = nearest(e.GetToken(), names(constants, of_places));
+  std::string advice;
+  if (const std::string& word = e.GetToken(); e.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
+    const std::string near = nearest(word, names(constants, of_places));
+    advice = near.empty() || near == word ? "" : "did you mean '" + near + "'? ";
+    advice += "A constant of its own stands beside the expression: " + shown(word) + " = \"1 ms\"";
+  }
   refuse("the expression cannot be read: " + shown(e.GetMsg()), text,
-         "the named constants, " + listed(names({}, of_places)),
-         near.empty() || near == e.GetToken() ? "" : "did you mean '" + near + "'?");
+         "the named constants, " + listed(names({}, of_places)), advice);
 }
 
 void check(const std::string& text, const Constants& constants) {

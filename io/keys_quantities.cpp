@@ -22,10 +22,14 @@ auto Table::placed(const char* key, F read) const {
 }
 
 double Table::quantity_of(const toml::node& node, const char* key, const Dimension& d) const {
+  const auto with_units = [&](double value) {
+    const std::string usual = fmt::format("\"{} {}\"", value, d.usual.front());
+    return d.usual.front() == d.si ? usual : fmt::format("{}, or \"{} {}\" if that is meant", usual, value, d.si);
+  };
   if (!node.is_string())
     refuse(key, fmt::format("expected a quantity of {}: a text with number and unit", d.name),
            fmt::format("a number and a unit of {} ({}, ...)", d.name, listed(d.usual)),
-           node.is_number() ? fmt::format("\"{} {}\"", *node.value<double>(), d.usual.front()) : "");
+           node.is_number() ? with_units(*node.value<double>()) : "");
   return placed(key, [&] { return parse_quantity(*node.value<std::string>(), d); });
 }
 

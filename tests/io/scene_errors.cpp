@@ -32,7 +32,7 @@ const Wrong cases[] = {
     {"missing_cell", "cell = \"0.5 mm\"\n", "", "plate.toml:5: grid.cell", "missing key 'cell'", "add cell"},
     {"missing_E", "E = \"2500 MPa\"\n", "", "plate.toml:9: material.0.E", "missing key 'E'", "add E"},
     {"number_without_unit", "E = \"2500 MPa\"", "E = 2500", "plate.toml:11: material.0.E", "quantity of stress",
-     "\"2500 MPa\""},
+     "\"2500 MPa\", or \"2500 Pa\""},
     {"wrong_type", "nu = 0.33", "nu = \"0.33\"", "plate.toml:12: material.0.nu", "expected a number", "without unit"},
     {"not_an_array", "[[crack]]", "[crack]", "plate.toml:26: crack", "array of tables", "[[crack]]"},
     {"wrong_pair", "lower = [\"-4 mm\", \"-4 mm\"]", "lower = [\"-4 mm\"]", "plate.toml:7: grid.lower", "array of two",
@@ -139,6 +139,9 @@ const Wrong cases[] = {
     {"crack_outside", "points = [[\"-1 mm\", \"50 mm\"], [\"25 mm\", \"50 mm\"]]",
      "points = [[\"-1 mm\", \"50 mm\"], [\"-1 mm\", \"70 mm\"]]", "plate.toml:26: crack.0",
      "no part of the crack lies in a body", "through a body"},
+    {"crack_twice", "[[crack]]",
+     "[[crack]]\nname = \"part\"\npoints = [[\"20 mm\", \"50 mm\"], [\"10 mm\", \"50 mm\"]]\n[[crack]]",
+     "plate.toml:26: crack.0", "lies on another one, crack edge", "only one"},
     {"crack_off_grid", "[\"-1 mm\", \"50 mm\"]", "[\"-9 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
      "the crack leaves it", "larger grid"},
     {"crack_without_length", "[\"-1 mm\", \"50 mm\"]", "[\"25 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
@@ -188,7 +191,8 @@ const Wrong cases[] = {
      "plate.toml:22: grip.0", "needs a velocity", "velocity_x"},
     {"shape_missing", "shape = \"sin", "shpe = \"sin", "plate.toml:25: grip.0.velocity_y", "needs the key 'shape'",
      "sin(t/tr)"},
-    {"shape_unreadable", "sin(pi*t/tr)", "sin(pi*t/ts)", "plate.toml:25: grip.0.velocity_y", "cannot be read", "'t"},
+    {"shape_unreadable", "sin(pi*t/tr)", "sin(pi*t/ts)", "plate.toml:25: grip.0.velocity_y", "cannot be read",
+     "did you mean 't'? A constant of its own stands beside the expression: ts = "},
     {"shape_not_finite", "sin(pi*t/tr)", "tr/t", "plate.toml:25: grip.0.velocity_y", "not finite at t = 0", "end"},
     {"odd_reading", "[[crack]]", "[fracture]\n[[fracture.reading]]\nname = \"near\"\ncontour = 3\n[[crack]]",
      "plate.toml:29: fracture.reading.0.contour", "no node in its middle", "contour = 4"},
@@ -331,6 +335,15 @@ TEST(BadSceneParts, GrowthNeedsATip) {
     EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
     EXPECT_NE(t.what.find("has a tip in a body"), std::string::npos) << Error(t).what();
   }
+}
+
+TEST(BadSceneParts, JNeedsATip) {
+  const std::string fracture = "[fracture]\ncontour = 8\n";
+  read(good_scene + fracture);
+  const Trouble t = trouble_of(changed("[\"25 mm\", \"50 mm\"]]", "[\"50 mm\", \"50 mm\"]]") + fracture);
+  EXPECT_EQ(t.code, Exit::bad_input);
+  EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
+  EXPECT_NE(t.what.find("has a tip in a body"), std::string::npos) << Error(t).what();
 }
 
 TEST(BadSceneFile, IsAFileError) {
