@@ -63,6 +63,30 @@ void print_growth(const Summary& s) {
              s.fragments.size() > most ? ", ..." : "");
 }
 
+constexpr size_t most_lines = 20;  // of cracks, and of tips
+
+void print_cracks(const std::vector<Summary::Crack>& cracks) {
+  for (size_t i = 0; i < std::min(most_lines, cracks.size()); ++i)
+    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm{}\n", cracks[i].name, 1e3 * cracks[i].max_opening,
+               1e3 * cracks[i].length,
+               cracks[i].grown > 0 ? fmt::format(", grown by {:.4g} mm", 1e3 * cracks[i].grown) : "");
+  if (cracks.size() > most_lines)
+    fmt::print("... and {} more cracks in summary.json\n", cracks.size() - most_lines);
+}
+
+/// J and K where they were last found, at the tips that there still are.
+void print_tips(const std::vector<Summary::Tip>& tips) {
+  size_t found = 0;
+  for (const Summary::Tip& t : tips) {
+    if (t.contour.empty() || t.state == "closed" || ++found > most_lines)
+      continue;
+    fmt::print("tip {:<20} J {:.4g} J/m^2, K_I {:.4g}, K_II {:.4g} MPa m^0.5{}\n", t.crack + " " + t.end, t.J,
+               1e-6 * t.K_I, 1e-6 * t.K_II, t.speed > 0 ? fmt::format(", running at {:.4g} m/s", t.speed) : "");
+  }
+  if (found > most_lines)
+    fmt::print("... and {} more tips in summary.json\n", found - most_lines);
+}
+
 void print_summary(const Summary& s, const std::filesystem::path& folder) {
   fmt::print("\n{} steps to {} in {}: {:.2f} million particle-steps/s\n", s.steps, format_time(s.time),
              format_duration(s.wall_seconds), 1e-6 * s.particle_steps_per_second);
@@ -75,13 +99,8 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
                100 * s.energy.transfer / s.energy.largest);
   for (const Summary::Value& p : s.probes)
     fmt::print("{:<24} {:.6g} {}\n", p.name, p.value, p.unit);
-  constexpr size_t most = 20;
-  for (size_t i = 0; i < std::min(most, s.cracks.size()); ++i)
-    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm{}\n", s.cracks[i].name, 1e3 * s.cracks[i].max_opening,
-               1e3 * s.cracks[i].length,
-               s.cracks[i].grown > 0 ? fmt::format(", grown by {:.4g} mm", 1e3 * s.cracks[i].grown) : "");
-  if (s.cracks.size() > most)
-    fmt::print("... and {} more cracks in summary.json\n", s.cracks.size() - most);
+  print_cracks(s.cracks);
+  print_tips(s.tips);
   if (!s.fragments.empty())
     print_growth(s);
   for (const Summary::Warning& w : s.warnings)
