@@ -56,16 +56,22 @@ void check_waiting(const Scene& s, const CrackLine& c) {
            "contact.when = \"always\"");
 }
 
-/// Does every point of a crack lie on another one?
+/// Does a crack lie on another one all along? Both ends of one that closes another to a ring do, too.
 bool lies_on(const CrackLine& c, const CrackLine& other, double tolerance) {
-  return std::all_of(c.points.begin(), c.points.end(), [&](Vec2 x) {
+  constexpr int pieces = 7;  // of each straight part
+  const auto on_other = [&](Vec2 x) {
     for (size_t i = 1; i < other.points.size(); ++i) {
       const Vec2 a = other.points[i - 1], d = other.points[i] - a;
       if (norm(x - a - std::clamp(dot(x - a, d) / dot(d, d), 0., 1.) * d) < tolerance)
         return true;
     }
     return false;
-  });
+  };
+  for (size_t i = 1; i < c.points.size(); ++i)
+    for (int k = 0; k <= pieces; ++k)
+      if (!on_other(c.points[i - 1] + (double(k) / pieces) * (c.points[i] - c.points[i - 1])))
+        return false;
+  return true;
 }
 
 /// Faces of cracks that lie on each other are the same, and so are their ends, none of which is a tip then.

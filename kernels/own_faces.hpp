@@ -88,11 +88,9 @@ class OwnFaces {
   template <class Traction>
   void add(int k, double q, const Traction& traction) {
     const double before = task_.other_faces && meets_other(k) ? cut_at(k, segments_.cell_of(k)) : uncut;
-    const auto work = [&](int n) {
-      return n < 0 ? 0 : dot(traction(n), opening_change(n)) * first_length(k) / first_length(n);
-    };
+    const auto as_on = [&](int n) { return n < 0 ? 0 : work(n, traction(n)) * first_length(k) / first_length(n); };
     const double all =
-        before == uncut ? work(k) : before * work(uncut_beside(k, -1)) + (1 - before) * work(uncut_beside(k, 1));
+        before == uncut ? as_on(k) : before * as_on(uncut_beside(k, -1)) + (1 - before) * as_on(uncut_beside(k, 1));
     task_.sums.tractions -= task_.last ? q * all : -q * all;
     if (task_.interaction && before == uncut)
       add_known_opening(k, q, traction(k));

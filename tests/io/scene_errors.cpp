@@ -337,6 +337,17 @@ TEST(BadSceneParts, GrowthNeedsATip) {
   }
 }
 
+TEST(BadSceneParts, ACrackMayCloseAnotherToARing) {
+  const auto crack = [](const char* name, const char* points) {
+    return fmt::format("[[crack]]\nname = \"{}\"\npoints = [{}]\n", name, points);
+  };
+  const std::string three_sides = crack("sides", R"(["30 mm", "30 mm"], ["30 mm", "40 mm"], ["40 mm", "40 mm"],
+                                                    ["40 mm", "30 mm"])");
+  read(good_scene + three_sides + crack("fourth", R"(["30 mm", "30 mm"], ["40 mm", "30 mm"])"));
+  const Trouble t = trouble_of(good_scene + three_sides + crack("first", R"(["30 mm", "32 mm"], ["30 mm", "39 mm"])"));
+  EXPECT_NE(t.what.find("lies on another one, crack sides"), std::string::npos) << Error(t).what();
+}
+
 TEST(BadSceneParts, JNeedsATip) {
   const std::string fracture = "[fracture]\ncontour = 8\n";
   read(good_scene + fracture);

@@ -143,8 +143,8 @@ TEST(SymmetryPlane, LeavesJAlone) {
   for (size_t k = 0; k < s.readings.size(); ++k) {
     const double far = m.state.readings[k][0].J;
     gates::report("tip 8 cells from a plane of symmetry, J with contours of 8 to 20 cells over that with 12, less 1",
-                  far / J - 1, "0.005");
-    EXPECT_NEAR(far, J, 0.005 * J) << s.readings[k].rules.contour;
+                  far / J - 1, "0.002");
+    EXPECT_NEAR(far, J, 0.002 * J) << s.readings[k].rules.contour;
   }
 }
 
