@@ -84,7 +84,7 @@ TEST(TwoCracksEndToEnd, AreAsOne) {
 TEST(TipsThatShareNodes, MakeNoEnergyInAnyOrder) {
   const CrackLine left = under_pressure("left", {{-1.5, 12.5}, {12.25, 12.5}});
   const CrackLine right = under_pressure("right", {{25.5, 11.5}, {11.75, 11.5}});
-  double J[2];
+  double J[2] = {};
   for (const bool swapped : {false, true}) {
     Scene s = pressed({{0, 0}, {24, 24}});
     s.contact.law = ContactLaw::ignored;  // what is booked as contact is what bridges take
@@ -105,7 +105,7 @@ TEST(TipsThatShareNodes, MakeNoEnergyInAnyOrder) {
 
 TEST(PressureOnAPart, IsTheSameFromEitherEnd) {
   for (const double begins : {6.3, 6.6, 7.25}) {
-    double J[2];
+    double J[2] = {};
     for (const bool reversed : {false, true}) {
       std::vector<Vec2> points{{-1.5, 12}, {8.25, 12}};
       if (reversed)
