@@ -51,7 +51,7 @@ struct Summary {
     double M_I = 0, M_II = 0;  ///< by the interaction integral
     double speed = 0;
     std::string contour;   ///< "4 x 4 cells"; empty before the first evaluation
-    bool adapted = false;  ///< the contour leaves out the tip of another crack
+    bool adapted = false;  ///< the contour leaves out the tip of another crack, or a bend with pressed faces
   };
   struct Value {
     std::string name;

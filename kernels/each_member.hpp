@@ -185,6 +185,7 @@ void each_member(FractureReport& r, F&& f) {
   f("unsound", r.unsound);
   f("evaluations", r.evaluations);
   f("crossed", r.crossed);
+  f("bent", r.bent);
   f("place", r.place);
 }
 

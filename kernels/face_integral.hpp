@@ -60,6 +60,7 @@ class FaceIntegral {
       else if (task_.other_faces)
         add_faces(s, meet(s, touching));
     }
+    note_bends(lists.segments);
   }
 
  private:
@@ -100,15 +101,36 @@ class FaceIntegral {
     const bool loaded = own_.bears(s.k);
     if (loaded)
       own_.add_tractions(s.k, s.q);
-    const bool is_bent = s.turn > bent;
-    task_.sums.bent = task_.sums.bent || is_bent;
+    const bool off_line = is_bent(s);
+    task_.sums.bent = task_.sums.bent || off_line;
     // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : is_bent ? meet(s, touching) : meet_shut(s);
-    if (meeting.holds && !is_bent)
+    const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
+    shut_ = shut_ || meeting.holds;
+    if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
-      add_faces(s, is_bent ? meeting : Meeting{});
+      add_faces(s, off_line ? meeting : Meeting{});
   }
+
+  /// Notes what is bent where faces are pressed together before the bend or next behind it, in the domain or beyond.
+  void note_bends(const std::vector<Segment>& segments) {
+    const Segment* first = nullptr;
+    for (const Segment& s : segments)
+      if (is_bent(s) && (first == nullptr || (s.k > first->k) == task_.last))
+        first = &s;
+    if (first == nullptr)
+      return;
+    double far = 0;
+    for (Segment at = *first; !shut_ && far < pressed_within * h_ && behind(at); far += at.length)
+      shut_ = meet(at, touching).holds;
+    if (!shut_)
+      return;
+    for (const Segment& s : segments)
+      if (is_bent(s))
+        task_.sums.shut_bends.push_back(view_.plane[s.k + int{task_.last}]);
+  }
+
+  bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > bent; }
 
   /// A segment itself, or, nearer to the tip than so many cells, the first one behind it that is not.
   Segment clear_of_tip(const Segment& s, double cells) const {
@@ -251,7 +273,8 @@ class FaceIntegral {
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
   static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction
-  static constexpr int places = 4;          ///< at which it is looked for instead
+  static constexpr double pressed_within = 4;  ///< behind a bend
+  static constexpr int places = 4;             ///< at which it is looked for instead
   /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
   /// have opened by little at any tip while nodes next to it may still touch.
   static constexpr double touching = 0.05, shut = 1e-3;
@@ -264,6 +287,7 @@ class FaceIntegral {
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;
   std::optional<Meeting> near_tip_;  ///< once asked for
+  bool shut_ = false;                ///< some faces of the tip's own crack are pressed together
 };
 
 }  // namespace riven

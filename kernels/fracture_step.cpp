@@ -49,13 +49,16 @@ Vec2 position_of(const Cracks& cracks, const Tip& tip) {
 struct Due {
   Tip* tip;
   double most[4];           ///< m, the contour as asked for, or as drawn in
-  bool adapted = false;     ///< the contour leaves out another tip
-  bool in_cell = false;     ///< which is too near
+  std::vector<Vec2> bends;  ///< of the crack itself with faces pressed together, which the contour is to leave out
+  bool adapted = false;     ///< the contour leaves out another tip, or a bend
+  bool in_cell = false;     ///< a tip is too near for that
+  bool bend_in_cell = false;
   double acting = 1;        ///< tips that the contour takes for this one: itself, and those too near that run its way
   bool settled = false;     ///< all of its edges lie in the solid
   bool to_draw_in = false;  ///< some do not, and have room to be drawn in
-  bool near = false;        ///< J is known, and this contour is to say what drives the tip
-  bool to_near = false;     ///< the next one is to
+  bool to_place_anew = false;  ///< bends have become known
+  bool near = false;           ///< J is known, and this contour is to say what drives the tip
+  bool to_near = false;        ///< the next one is to
 };
 
 template <class Real>
@@ -88,6 +91,9 @@ class JSearch {
       sum_around_tips(m_.space, m_.plan, s_, tasks);
       each("J to K", due.size(), [&](size_t k) {
         add_bridges(s_, m_.bridges, places_, tasks[k]);
+        find_bends(due[k], tasks[k]);
+        if (due[k].to_place_anew)
+          return;
         draw_in(due[k], tasks[k]);
         if (due[k].near)
           settle_near(due[k], tasks[k]);
@@ -96,7 +102,9 @@ class JSearch {
       });
       for (size_t k = 0; k < due.size(); ++k)
         note(due[k], tasks[k]);
-      std::erase_if(due, [](const Due& d) { return !d.to_draw_in && !d.to_near; });
+      std::erase_if(due, [](const Due& d) { return !d.to_place_anew && !d.to_draw_in && !d.to_near; });
+      for (Due& d : due)
+        d.to_place_anew = false;
       for (Due& d : due)
         if (std::exchange(d.to_near, false)) {
           d.near = true;
@@ -128,7 +136,9 @@ class JSearch {
   TipTask place(Due& d) const {
     const Tip& tip = *d.tip;
     const Vec2 at = position_of(s_.cracks, tip);
-    const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, others(tip));
+    std::vector<Vec2> left_out = others(tip);
+    leave_out_bends(d, at, left_out);
+    const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, left_out);
     d.adapted = placed.adapted;
     d.in_cell = placed.in_cell;
     d.acting = placed.in_cell ? acting_within(tip, placed.domain) : 1;
@@ -168,6 +178,29 @@ class JSearch {
         list.push_back(places_[k]);
     });
     return list;
+  }
+
+  /// Where there is no room for a contour before a bend, the smallest takes in least of what is behind it.
+  void leave_out_bends(Due& d, Vec2 tip, std::vector<Vec2>& left_out) const {
+    const double h = m_.scene.cell;
+    for (const Vec2 bend : d.bends) {
+      const Vec2 r = bend - tip;
+      if (std::max(std::fabs(r.x), std::fabs(r.y)) >= h) {
+        left_out.push_back(bend);
+        continue;
+      }
+      d.bend_in_cell = true;
+      for (double& most : d.most)
+        most = std::min(most, h);
+    }
+  }
+
+  /// A contour gets no more than one new place for them, when it is known whether they are pressed.
+  void find_bends(Due& d, const TipTask& task) const {
+    if (rules_.method != JMethod::fijc_adaptive || !d.bends.empty() || task.sums.shut_bends.empty())
+      return;
+    d.bends = task.sums.shut_bends;
+    d.to_place_anew = true;
   }
 
   /// A contour that cannot part tips gives what all of them release: J = sum_k q(x_k) cos(t, t_k) J_k, with t the way
@@ -218,8 +251,10 @@ class JSearch {
   }
 
   void note(const Due& d, const TipTask& task) {
-    if (d.near)
+    if (d.near || d.to_place_anew)
       return;
+    if (d.bend_in_cell)
+      count(m_.fracture.bent, m_.fracture.place[3], task.domain.tip);
     if (d.in_cell)
       count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
     if (d.to_draw_in) {

@@ -15,7 +15,8 @@ struct FractureReport {
   long unsound = 0;   ///< it leaves the solid however small
   long evaluations = 0;
   long crossed = 0;  ///< evaluations with another crack in the domain
-  Vec2 place[3];
+  long bent = 0;     ///< a bend with faces pressed together behind it was too near for a contour that leaves it out
+  Vec2 place[4];
 };
 
 /// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth

@@ -32,7 +32,7 @@ struct Tip {
   /// Pa m^0.5, by the interaction integral; NaN where another crack or a bend is in the contour
   double M_I = 0, M_II = 0;
   double reach[4] = {0, 0, 0, 0};  ///< cells from the tip to the contour: +x, +y, -x, -y
-  bool adapted = false;            ///< the contour leaves out the tip of another crack
+  bool adapted = false;            ///< the contour leaves out the tip of another crack, or a bend with pressed faces
   bool crossed = false;            ///< another crack crosses the contour
   bool sound = true;               ///< false: no contour was found that J can be trusted on (a warning was counted)
 };
