@@ -14,6 +14,7 @@
 #include "io/check_scene.hpp"
 #include "io/checkpoint_store.hpp"
 #include "io/compare_scenes.hpp"
+#include "io/doubts.hpp"
 #include "io/duration.hpp"
 #include "io/progress.hpp"
 #include "io/require_memory.hpp"
@@ -184,6 +185,8 @@ void add_run(CLI::App& app) {
     const CheckpointFile* restart = from ? &*from : nullptr;
     const Scene scene = choose_scene(o->scene, restart);
     require_memory(scene);
+    if (!o->quiet && !restart)
+      print_doubts(scene);
     with_precision(scene.precision, [&](auto real) { run<typename decltype(real)::type>(*o, scene, restart); });
   });
 }

@@ -103,6 +103,12 @@ void check_holes(const Scene& s, const Body& b) {
 
 }  // namespace
 
+Rectangle travel(const Scene& s, const Grip& g) {
+  const auto [x0, x1] = path(g.velocity[0], s.end_time);
+  const auto [y0, y1] = path(g.velocity[1], s.end_time);
+  return {{x0, y0}, {x1, y1}};
+}
+
 void check_solids(const Scene& s) {
   if (s.bodies.empty())
     refuse(s, "body", "the scene has no body", "", "at least one [[body]]", "");
@@ -120,9 +126,8 @@ void check_solids(const Scene& s) {
     count(b.region, b.particles_per_cell);
   }
   for (const Grip& g : s.grips) {
-    const auto [x0, x1] = path(g.velocity[0], s.end_time);
-    const auto [y0, y1] = path(g.velocity[1], s.end_time);
-    check_solid(s, "grip " + g.name, g.region, g.particles_per_cell, {x0, y0}, {x1, y1});
+    const Rectangle way = travel(s, g);
+    check_solid(s, "grip " + g.name, g.region, g.particles_per_cell, way.lower, way.upper);
     count(g.region, g.particles_per_cell);
   }
   if (particles * particle_bytes > memory())

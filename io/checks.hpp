@@ -35,6 +35,9 @@ inline double memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+/// Where the velocity of a grip takes it from where it is at first, over the run, m.
+Rectangle travel(const Scene& s, const Grip& g);
+
 /// Bodies and grips: in the grid, on the solid side of symmetry planes, large enough, and each in a place of its own.
 void check_solids(const Scene& s);
 /// Cracks and contact.

@@ -48,10 +48,10 @@ Vec2 position_of(const Cracks& cracks, const Tip& tip) {
 /// One tip on its way to J.
 struct Due {
   Tip* tip;
-  double most[4];           ///< m, the contour as asked for, or as drawn in
-  std::vector<Vec2> bends;  ///< of the crack itself with faces pressed together, which the contour is to leave out
-  bool adapted = false;     ///< the contour leaves out another tip, or a bend
-  bool in_cell = false;     ///< a tip is too near for that
+  double most[4];             ///< m, the contour as asked for, or as drawn in
+  std::vector<Vec2> bends{};  ///< of the crack itself with faces pressed together, which the contour is to leave out
+  bool adapted = false;       ///< the contour leaves out another tip, or a bend
+  bool in_cell = false;       ///< a tip is too near for that
   bool bend_in_cell = false;
   double acting = 1;        ///< tips that the contour takes for this one: itself, and those too near that run its way
   bool settled = false;     ///< all of its edges lie in the solid

@@ -27,7 +27,7 @@ struct TipSums {
                                                            ///< other crack cuts, if that is known to be short
   bool crossed = false;                                    ///< another crack lies in the domain
   bool bent = false;                                       ///< the crack itself is not in line with its tip there
-  std::vector<Vec2> shut_bends;  ///< where it is not, ends of its segments towards the tip, if some are pressed together
+  std::vector<Vec2> shut_bends;  ///< its points where it is not, if faces near there are pressed together
 };
 
 /// A tip to sum around.

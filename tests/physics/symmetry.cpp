@@ -151,7 +151,7 @@ TEST(SymmetryPlane, LeavesJAlone) {
 /// A neck two cells wide leaves no room for a contour: the crack takes the shorter way out of it.
 TEST(CrackInANeck, LeavesItAsItsMirrorImageDoes) {
   for (const double off : {-0.06, 0.06}) {
-    double side[2];
+    double side[2] = {};
     for (const int sign : {1, -1}) {
       const auto block = [&](Vec2 lower, Vec2 upper) {
         return Rectangle{{lower.x, sign > 0 ? lower.y : -upper.y}, {upper.x, sign > 0 ? upper.y : -lower.y}};

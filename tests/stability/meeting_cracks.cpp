@@ -75,11 +75,11 @@ TEST(Star, StandsTensionOnAllSides) {
 }
 
 /// m, by which the particles within a coarse cell of the middle have moved away from it, the mean over the time in
-/// which waves go through the plate ten times.
+/// which waves go through the plate five times.
 double opening(const Scene& s, const Vec2 middle) {
   const ChosenSpace space;
   Simulation m(s, space);
-  const double end = 10 * 24 * coarse / wave_speed(solid());
+  const double end = 5 * 24 * coarse / wave_speed(solid());
   double sum = 0;
   while (m.state.clock.time < end) {
     m.step();

@@ -1,0 +1,126 @@
+#include "io/doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/state/make_tips.hpp"
+#include "io/checks.hpp"
+
+namespace riven {
+
+using namespace checks;
+
+namespace {
+
+constexpr double shortest_crack = 2;    // cells: of one of a cell J is 0 to 9 %, of one of two within 10 % of all of it
+constexpr double heaviest = 23e3;       // kg/m^3: osmium, and a little
+constexpr double lightest = 1;          // kg/m^3: aerogel
+constexpr double fastest_waves = 20e3;  // m/s: diamond, and a little
+
+void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
+  for (const Material& m : s.materials) {
+    const double waves = std::sqrt(m.E / m.density);
+    if (m.density > heaviest || m.density < lightest)
+      list.push_back({place(s, "material " + m.name), fmt::format("no solid has a density of {:.6g} kg/m^3", m.density),
+                      "steel has 7850 kg/m^3 or 7.85 g/cm^3; leave it where a body is to weigh more than it is large"});
+    else if (waves > fastest_waves)
+      list.push_back({place(s, "material " + m.name),
+                      fmt::format("waves run at {:.3g} km/s, faster than in diamond", 1e-3 * waves),
+                      "look at the units of E and density"});
+  }
+}
+
+void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
+  for (const Body& b : s.bodies)
+    for (const Region& hole : b.holes) {
+      const Vec2 size = bounds(hole).upper - bounds(hole).lower;
+      const double spacing = s.cell / b.particles_per_cell;
+      if (std::min(size.x, size.y) < spacing)
+        list.push_back({place(s, "body " + b.name),
+                        fmt::format("a hole of {:.4g} x {:.4g} mm may lie between particles, {:.4g} mm apart",
+                                    1e3 * size.x, 1e3 * size.y, 1e3 * spacing),
+                        "try smaller cells"});
+    }
+  for (const Grip& g : s.grips) {
+    const Rectangle box = bounds(g.region), way = travel(s, g);
+    const Vec2 around{s.cell, s.cell};
+    const Rectangle swept{box.lower + way.lower - around, box.upper + way.upper + around};
+    if (std::none_of(s.bodies.begin(), s.bodies.end(),
+                     [&](const Body& b) { return checks::overlap(swept, bounds(b.region)); }))
+      list.push_back({place(s, "grip " + g.name), "the grip is more than a cell away from all bodies, wherever it goes",
+                      "try a region beside what it is to hold"});
+  }
+}
+
+double length(const CrackLine& c) {
+  double sum = 0;
+  for (size_t i = 1; i < c.points.size(); ++i)
+    sum += norm(c.points[i] - c.points[i - 1]);
+  return sum;
+}
+
+/// A material other than the tip's own in its contour, or -1.
+int other_material_near(const Scene& s, const Tip& tip, Vec2 at) {
+  const int half = s.fracture.contour + 2;  // cells, half a cell from point to point
+  for (int j = -half; j <= half; ++j)
+    for (int i = -half; i <= half; ++i)
+      if (const int body = body_at(s, at + (0.5 * s.cell) * Vec2{double(i), double(j)}); body >= 0)
+        if (const int material = s.bodies[static_cast<size_t>(body)].material; material != tip.material)
+          return material;
+  return -1;
+}
+
+void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
+  if (s.materials.size() < 2)
+    return;
+  for (const Tip& tip : make_tips(s)) {
+    const CrackLine& crack = s.cracks[static_cast<size_t>(tip.crack)];
+    const int other = other_material_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
+    if (other >= 0)
+      list.push_back(
+          {place(s, "crack " + crack.name),
+           fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",
+                       tip.last ? "last" : "first", s.materials[static_cast<size_t>(other)].name,
+                       s.materials[static_cast<size_t>(tip.material)].name),
+           "try a smaller fracture.contour or smaller cells; J holds where the two meet along the crack's line"});
+  }
+}
+
+void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
+  for (const CrackLine& c : s.cracks)
+    if (const double cells = length(c) / s.cell; cells < shortest_crack)
+      list.push_back({place(s, "crack " + c.name),
+                      fmt::format("a crack of {:.3g} cells may not open, as all of its nodes see its tips", cells),
+                      fmt::format("try grid.cell = \"{:.3g} mm\"", 1e3 * length(c) / (2 * shortest_crack))});
+  if (!s.fracture.asked)
+    return;
+  if (s.fracture.contour <= 2)
+    list.push_back({place(s, "fracture.contour"),
+                    "a contour of 2 cells finds J up to 30 % too large where a crack lies between nodes, and more "
+                    "beside a bend",
+                    "try contour = 4"});
+  doubt_tips(s, list);
+}
+
+}  // namespace
+
+std::vector<Doubt> doubts(const Scene& s) {
+  std::vector<Doubt> list;
+  doubt_materials(s, list);
+  doubt_solids(s, list);
+  doubt_cracks(s, list);
+  return list;
+}
+
+std::size_t print_doubts(const Scene& s) {
+  constexpr size_t most = 10;
+  const std::vector<Doubt> list = doubts(s);
+  for (size_t i = 0; i < std::min(most, list.size()); ++i)
+    fmt::print(stderr, "note: {}: {}; {}\n", list[i].place, list[i].what, list[i].hint);
+  if (list.size() > most)
+    fmt::print(stderr, "note: ... and {} more like these\n", list.size() - most);
+  return list.size();
+}
+
+}  // namespace riven

@@ -1,0 +1,23 @@
+// What a scene says that can be simulated as written and yet is seldom meant.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace riven {
+
+struct Doubt {
+  std::string place;  ///< file and line, or the part of the scene
+  std::string what, hint;
+};
+
+/// Cracks too short to open, tips beside another material, contours too small for J, holes without a particle, grips
+/// away from all bodies, and materials whose density or wave speed no solid has. `s`: a scene that passes check_scene.
+std::vector<Doubt> doubts(const Scene& s);
+
+/// Prints them to stderr, a note each, and says how many there are.
+std::size_t print_doubts(const Scene& s);
+
+}  // namespace riven

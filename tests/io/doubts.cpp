@@ -1,0 +1,113 @@
+#include "io/doubts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/check_scene.hpp"
+#include "tests/physics/scene_gates.hpp"
+
+namespace riven {
+namespace {
+
+/// A plate of steel, 40 cells of 1 mm, pulled by a grip, with a crack from its edge.
+Scene sound_scene() {
+  Scene s;
+  s.name = "plate";
+  s.cell = 1e-3;
+  s.grid = {{-5e-3, -5e-3}, {45e-3, 45e-3}};
+  s.end_time = 1e-4;
+  s.materials = {{"steel", LawKind::linear_elastic, 210e9, 0.3, 7850}};
+  Body plate;
+  plate.name = "plate";
+  plate.region = Rectangle{{0, 0}, {40e-3, 40e-3}};
+  s.bodies = {plate};
+  Grip top;
+  top.name = "top";
+  top.region = Rectangle{{0, 40e-3}, {40e-3, 41e-3}};
+  top.velocity[1] = TimeFunction{1, {}, ""};
+  s.grips = {top};
+  CrackLine edge;
+  edge.name = "edge";
+  edge.points = {{-1e-3, 20e-3}, {12e-3, 20e-3}};
+  s.cracks = {edge};
+  s.fracture.asked = true;
+  return s;
+}
+
+/// Does the scene pass its checks with one doubt, of this part?
+void expect_doubt(const Scene& s, const std::string& part, const std::string& what) {
+  check_scene(s);
+  const std::vector<Doubt> list = doubts(s);
+  ASSERT_EQ(list.size(), 1) << part;
+  EXPECT_EQ(list[0].place, part);
+  EXPECT_NE(list[0].what.find(what), std::string::npos) << list[0].what;
+  EXPECT_FALSE(list[0].hint.empty());
+}
+
+TEST(Doubts, LeaveSoundScenesAlone) {
+  EXPECT_TRUE(doubts(sound_scene()).empty());
+  for (const char* name : {"sent", "ten_cracks", "many_cracks", "dent"})
+    EXPECT_TRUE(doubts(gates::shipped(name)).empty()) << name;
+}
+
+TEST(Doubts, NameMaterialsThatNoSolidIsMadeOf) {
+  Scene s = sound_scene();
+  s.materials[0].density = 7.85e6;
+  expect_doubt(s, "material steel", "density");
+  EXPECT_EQ(doubts(gates::shipped("beam_impact")).size(), 1);  // an impactor of 367 g, as small as it is
+  s.materials[0].density = 7.85;
+  expect_doubt(s, "material steel", "faster than in diamond");
+}
+
+TEST(Doubts, NameGripsThatHoldNothing) {
+  Scene s = sound_scene();
+  s.grips[0].region = Rectangle{{0, 42e-3}, {40e-3, 43e-3}};
+  expect_doubt(s, "grip top", "away from all bodies");
+  s.grips[0].velocity[1] = TimeFunction{-15, {}, ""};  // by 1.5 mm, to the plate
+  EXPECT_TRUE(doubts(s).empty());
+}
+
+TEST(Doubts, NameHolesBetweenParticles) {
+  Scene s = sound_scene();
+  s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {30.3e-3, 34e-3}}};
+  expect_doubt(s, "body plate", "between particles");
+  s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {31e-3, 34e-3}}};
+  EXPECT_TRUE(doubts(s).empty());
+}
+
+TEST(Doubts, NameCracksTooShortToOpen) {
+  Scene s = sound_scene();
+  s.cracks[0].points = {{19.5e-3, 20.5e-3}, {20.5e-3, 20.5e-3}};
+  expect_doubt(s, "crack edge", "may not open");
+  s.cracks[0].points = {{19e-3, 20.5e-3}, {21.5e-3, 20.5e-3}};
+  EXPECT_TRUE(doubts(s).empty());
+}
+
+TEST(Doubts, NameTheSmallestContour) {
+  Scene s = sound_scene();
+  s.fracture.contour = 2;
+  expect_doubt(s, "fracture.contour", "2 cells");
+  s.fracture.asked = false;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
+/// Glass begins 2.5 cells ahead of the tip, and 4 cells.
+TEST(Doubts, NameTipsBesideAnotherMaterial) {
+  for (const double begins : {14.5e-3, 16e-3}) {
+    Scene s = sound_scene();
+    s.materials.push_back({"glass", LawKind::linear_elastic, 70e9, 0.22, 2500});
+    s.bodies[0].region = Rectangle{{0, 0}, {begins, 40e-3}};
+    s.bodies.push_back(s.bodies[0]);
+    s.bodies[1].name = "pane";
+    s.bodies[1].material = 1;
+    s.bodies[1].region = Rectangle{{begins, 0}, {40e-3, 40e-3}};
+    if (begins < 15e-3)
+      expect_doubt(s, "crack edge", "takes in material glass");
+    else
+      EXPECT_TRUE(doubts(s).empty());
+  }
+}
+
+}  // namespace
+}  // namespace riven
