@@ -13,15 +13,18 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-from matplotlib.collections import PolyCollection
-from matplotlib.ticker import FuncFormatter
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.collections import PolyCollection
+    from matplotlib.ticker import FuncFormatter
 
-from riven_results import Results
+    from riven_results import Results
+except ModuleNotFoundError as missing:
+    sys.exit(f"{missing}: pictures need NumPy, h5py and Matplotlib for this Python; Debian's are with /usr/bin/python3")
 
 SYMBOLS = {
     "sigma_xx": r"$\sigma_{xx}$",

@@ -13,13 +13,16 @@ import re
 import sys
 from pathlib import Path
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.colors
-import matplotlib.pyplot as plt
-import matplotlib.ticker
-import numpy as np
+    matplotlib.use("Agg")
+    import matplotlib.colors
+    import matplotlib.pyplot as plt
+    import matplotlib.ticker
+    import numpy as np
+except ModuleNotFoundError as missing:
+    sys.exit(f"{missing}: pictures need NumPy and Matplotlib for this Python; Debian's are with /usr/bin/python3")
 
 MARKERS = "osD^v<>pPX*hd"
 LINES = ["-", "--", ":", "-."]
