@@ -54,8 +54,9 @@ if(RIVEN_DEVICE STREQUAL "EMULATED")
 endif()
 
 # riven_check_only(OBJECTS): compiled for what the compiler says of it, never run; hence without optimisation, which
-# leaves calls in place whose stack ptxas cannot tell.
+# leaves calls in place whose stack ptxas cannot tell, and in double alone, as the host's compiler sees float.
 function(riven_check_only objects)
+  target_compile_options(${objects} PRIVATE $<$<COMPILE_LANGUAGE:CUDA>:-URIVEN_FLOAT>)
   if(RIVEN_NVCC_HAS_FAST_COMPILE)
     target_compile_options(${objects} PRIVATE
       "$<$<COMPILE_LANGUAGE:CUDA>:--Ofast-compile=max;-Xptxas=--suppress-stack-size-warning>")

@@ -1,0 +1,171 @@
+#include "kernels/tip_contours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fracture/opening.hpp"
+#include "core/fracture/place_domain.hpp"
+#include "kernels/simulation.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Of the shear wave speed, the fastest tip whose steady fields are taken. Nearer to the Rayleigh speed they grow
+/// beyond bounds, and a tip that speeds up would feed itself.
+constexpr double fastest_fields = 0.6;
+
+/// Share of an edge of the contour that must lie in the solid, besides the opening of the crack itself where it passes;
+/// there less will do where there is no room to draw the edge in.
+constexpr double least_filled = 0.9, least_filled_across = 0.4;
+
+std::vector<Vec2> positions_of(const Cracks& cracks, const std::vector<Tip>& tips) {
+  std::vector<Vec2> list;
+  list.reserve(tips.size());
+  for (const Tip& t : tips)
+    list.push_back(position_of(cracks, t));
+  return list;
+}
+
+}  // namespace
+
+template <class Real>
+TipContours<Real>::TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips)
+    : m_(m), s_(m.state), rules_(rules), tips_(tips), places_(positions_of(m.state.cracks, tips)) {
+  solids_.reserve(m.scene.materials.size());
+  for (const Material& material : m.scene.materials)
+    solids_.emplace_back(material, m.scene.plane);
+}
+
+template <class Real>
+TipTask TipContours<Real>::place(DueTip& d) const {
+  const Tip& tip = *d.tip;
+  const Vec2 at = position_of(s_.cracks, tip);
+  std::vector<Vec2> left_out = other_tips(tip);
+  leave_out_bends(d, at, left_out);
+  const PlacedDomain placed = place_domain(at, d.most, m_.scene.cell, left_out);
+  d.adapted = placed.adapted;
+  d.in_cell = placed.in_cell;
+  d.acting = placed.in_cell ? acting_within(tip, placed.domain) : 1;
+  TipTask task;
+  task.domain = placed.domain;
+  task.crack = tip.crack;
+  task.last = tip.last;
+  task.heading = heading_of(s_.cracks, tip);
+  const Vec2 laid = heading_of(s_.cracks, tip, true);
+  task.turn = {dot(laid, task.heading), cross(laid, task.heading)};
+  task.solid = &solids_[static_cast<size_t>(tip.material)];
+  task.thickness = s_.thickness[tip.body];
+  task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
+  if (!m_.contact_sums.touched.empty())
+    task.touched = m_.contact_sums.touched.data();
+  task.other_faces = rules_.method != JMethod::pijc;
+  task.inertia = counts_inertia(d, task.running.speed > 0);
+  task.interaction = rules_.interaction;
+  return task;
+}
+
+/// J has inertia within the contour; of a tip that runs, what a near one says of its drive has none.
+template <class Real>
+bool TipContours<Real>::counts_inertia(const DueTip& d, bool runs) const {
+  if (rules_.area == AreaTerm::automatic)
+    return runs ? !d.near : rules_.contour > 10;
+  return rules_.area == AreaTerm::always && !(runs && d.near);
+}
+
+/// The other tips, where the contour is to leave them out.
+template <class Real>
+std::vector<Vec2> TipContours<Real>::other_tips(const Tip& tip) const {
+  std::vector<Vec2> list;
+  if (rules_.method != JMethod::fijc_adaptive)
+    return list;
+  const Vec2 at = places_[static_cast<size_t>(&tip - tips_.data())];
+  places_.each_near(at, (rules_.contour + 2) * m_.scene.cell, [&](size_t k) {
+    if (tips_[k].open && &tips_[k] != &tip)
+      list.push_back(places_[k]);
+  });
+  return list;
+}
+
+/// Where there is no room for a contour before a bend, the smallest takes in least of what is behind it.
+template <class Real>
+void TipContours<Real>::leave_out_bends(DueTip& d, Vec2 tip, std::vector<Vec2>& left_out) const {
+  const double h = m_.scene.cell;
+  for (const Vec2 bend : d.bends) {
+    const Vec2 r = bend - tip;
+    if (std::max(std::fabs(r.x), std::fabs(r.y)) >= h) {
+      left_out.push_back(bend);
+      continue;
+    }
+    d.bend_in_cell = true;
+    for (double& most : d.most)
+      most = std::min(most, h);
+  }
+}
+
+/// A contour that cannot part tips gives what all of them release: J = sum_k q(x_k) cos(t, t_k) J_k, with t the way
+/// each runs. Which of them has how much is below what the grid resolves, and each is given as much.
+template <class Real>
+double TipContours<Real>::acting_within(const Tip& tip, const JDomain& domain) const {
+  const Vec2 heading = heading_of(s_.cracks, tip);
+  double sum = 1;
+  places_.each_near(domain.tip, 2 * m_.scene.cell, [&](size_t k) {
+    if (tips_[k].open && &tips_[k] != &tip)
+      sum += domain.weight(places_[k] - domain.tip) * std::max(0., dot(heading, heading_of(s_.cracks, tips_[k])));
+  });
+  return sum;
+}
+
+/// Bends are left out once: where they are pressed in a smaller contour they were so in a larger one.
+template <class Real>
+void TipContours<Real>::review(DueTip& d, const TipTask& task) const {
+  d.settled = d.to_draw_in = d.to_leave_bends = false;
+  if (rules_.method == JMethod::fijc_adaptive && d.bends.empty() && !task.sums.shut_bends.empty()) {
+    d.bends = task.sums.shut_bends;
+    d.to_leave_bends = true;
+  } else {
+    draw_in(d, task);
+  }
+}
+
+/// Draws those edges of the contour that lie outside of the solid in by a cell, where there is room.
+template <class Real>
+void TipContours<Real>::draw_in(DueTip& d, const TipTask& task) const {
+  const double h = m_.scene.cell;
+  d.settled = true;
+  for (int e = 0; e < 4; ++e) {
+    const double filled = task.sums.filled[e];
+    if (filled >= least_filled)
+      continue;
+    const std::optional<double> opening = opening_within(task, *d.tip, e);
+    if (opening && filled + *opening / task.domain.length(e) >= least_filled)
+      continue;
+    if (task.domain.reach[e] > 1.5 * h) {
+      d.most[e] = std::max(h, task.domain.reach[e] - h);
+      d.to_draw_in = !d.near;
+      d.settled = false;
+    } else if (!opening || filled < least_filled_across) {
+      d.settled = false;
+    }
+  }
+}
+
+/// The largest distance between the faces of the tip's own crack within the band of an edge; none where it does not
+/// pass there. The tip itself is in no band, but by rounding.
+template <class Real>
+std::optional<double> TipContours<Real>::opening_within(const TipTask& task, const Tip& tip, int edge) const {
+  const Cracks& c = s_.cracks;
+  const int end = c.end_point(tip.crack, tip.last), other = c.end_point(tip.crack, !tip.last);
+  const int step = tip.last ? -1 : 1;
+  std::optional<double> most;
+  for (int k = end + step; k != other + step; k += step)
+    if (task.domain.at(c.plane[k] - task.domain.tip).slope(edge) > 0)
+      most = std::max(most.value_or(0), norm(c.upper[k] - c.lower[k]));
+  return most;
+}
+
+#define RIVEN_CONTOURS(Real) template class TipContours<Real>;
+RIVEN_EACH_REAL(RIVEN_CONTOURS)
+#undef RIVEN_CONTOURS
+
+}  // namespace riven
