@@ -20,13 +20,6 @@ bool solid(const Scene& s, Vec2 p) {
   });
 }
 
-double length(const CrackLine& c) {
-  double sum = 0;
-  for (size_t i = 1; i < c.points.size(); ++i)
-    sum += norm(c.points[i] - c.points[i - 1]);
-  return sum;
-}
-
 /// True when some point of the crack, looked at every `spacing`, lies in a body, and in the region if there is one.
 bool meets_body(const Scene& s, const CrackLine& c, double spacing, const std::optional<Region>& region = {}) {
   for (size_t i = 1; i < c.points.size(); ++i) {
@@ -132,6 +125,13 @@ void check_interface(const Scene& s, const CrackLine& c) {
 }
 
 }  // namespace
+
+double length(const CrackLine& c) {
+  double sum = 0;
+  for (size_t i = 1; i < c.points.size(); ++i)
+    sum += norm(c.points[i] - c.points[i - 1]);
+  return sum;
+}
 
 void check_cracks(const Scene& s) {
   check_contact(s, "contact", s.contact);

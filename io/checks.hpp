@@ -35,6 +35,8 @@ inline double memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+/// Of a crack as it is written, m.
+double length(const CrackLine& c);
 /// Where the velocity of a grip takes it from where it is at first, over the run, m.
 Rectangle travel(const Scene& s, const Grip& g);
 

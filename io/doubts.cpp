@@ -53,13 +53,6 @@ void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
-double length(const CrackLine& c) {
-  double sum = 0;
-  for (size_t i = 1; i < c.points.size(); ++i)
-    sum += norm(c.points[i] - c.points[i - 1]);
-  return sum;
-}
-
 /// A material other than the tip's own in its contour, or -1.
 int other_material_near(const Scene& s, const Tip& tip, Vec2 at) {
   const int half = s.fracture.contour + 2;  // cells, half a cell from point to point

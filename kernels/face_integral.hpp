@@ -273,8 +273,8 @@ class FaceIntegral {
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
   static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction
-  static constexpr double pressed_within = 4;  ///< behind a bend
-  static constexpr int places = 4;             ///< at which it is looked for instead
+  static constexpr int places = 4;          ///< at which it is looked for instead
+  static constexpr double pressed_within = 4;  ///< cells behind a bend in which pressed faces are looked for
   /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
   /// have opened by little at any tip while nodes next to it may still touch.
   static constexpr double touching = 0.05, shut = 1e-3;
