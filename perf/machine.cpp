@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "core/exec/array.hpp"
 #include "core/exec/atomic.hpp"
@@ -164,12 +165,13 @@ std::vector<int> core_counts() {
 
 std::string machine_name() {
   std::ifstream in("/proc/cpuinfo");
-  std::string line, model = "unknown processor";
-  while (std::getline(in, line))
-    if (line.rfind("model name", 0) == 0) {
-      model = line.substr(line.find(':') + 2);
-      break;
-    }
+  std::map<std::string, std::string> first;  // of each key, that of the first processor
+  for (std::string line; std::getline(in, line);)
+    if (const size_t colon = line.find(':'); colon != std::string::npos && colon + 2 < line.size())
+      first.emplace(line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1), line.substr(colon + 2));
+  std::string model = first.count("model name") ? first["model name"] : "unknown processor";
+  if (first.count("cpu family") && first.count("model"))
+    model += fmt::format(" (family {}, model {})", first["cpu family"], first["model"]);
   return fmt::format("{}, {} cores, vectors of {} bits", model, exec::available_threads(), 8 * vector_bytes);
 }
 

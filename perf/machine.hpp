@@ -30,7 +30,8 @@ MachineRates measure_machine(int threads);
 
 /// 1, 2, 4, ... up to the number of cores that this process may use, that number included.
 std::vector<int> core_counts();
-/// Model name of the processor and the vector width of this build in bits.
+/// The processor, by family and model too, since virtual machines give kinds of different speed one name; its cores;
+/// and the vector width of this build in bits.
 std::string machine_name();
 /// The rates as a table, one row for each thread count.
 std::string table(const std::vector<MachineRates>& rates);
