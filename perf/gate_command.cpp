@@ -68,6 +68,7 @@ Costs measure_times(const Options& o) {
 
 Costs measure_baseline_times(const Options& o) {
   std::vector<Costs> tries;
+  tries.reserve(baseline_tries);
   for (int n = 0; n < baseline_tries; ++n)
     tries.push_back(measure_times(o));
   Costs middle;
@@ -90,6 +91,10 @@ void measure_again(const Options& o, const Costs& before, Costs& now) {
 }
 
 bool check_instructions(const Options& o, const Baseline& baseline) {
+  if (baseline.instructions.empty()) {
+    fmt::print("Instructions are not compared: the baseline has none\n");
+    return true;
+  }
   if (baseline.compiler != compiler()) {
     fmt::print("Instructions are not compared: the baseline was made with {}, this is {}\n", baseline.compiler,
                compiler());
