@@ -138,7 +138,7 @@ void run(const RunArguments& o, const Scene& scene, const CheckpointFile* from) 
   if (!o.wall_limit.empty())
     options.wall_limit = parse_duration(o.wall_limit, "--wall-limit");
   if (!from && !o.overwrite)
-    refuse_to_remove_unfinished(options.folder);
+    refuse_to_remove_results(options.folder, scene.name);
   const exec::Space space(scene.exec, threads_of(scene));
   SimulationOf<Real> simulation(scene, space);
   if (!o.quiet)
@@ -174,7 +174,8 @@ void add_run(CLI::App& app) {
   o->scene.add_to(*command, false);
   command->add_option("-o,--output", o->folder, "folder for the results; results/NAME unless said");
   command->add_option("--restart", o->restart, "go on from a checkpoint, or the newest one in a folder of results");
-  command->add_flag("--overwrite", o->overwrite, "begin anew where an interrupted run could go on");
+  command->add_flag("--overwrite", o->overwrite,
+                    "begin anew where an interrupted run could go on, or remove the results of another scene");
   command->add_option("--wall-limit", o->wall_limit, "interrupt the run after this time, \"30 min\" or 1:30:00");
   command->add_flag("--quiet", o->quiet, "print nothing but errors");
   command->add_flag("--profile", o->profile, "print the time of each task");

@@ -28,11 +28,11 @@ void clear_away(const fs::path& path) {
     fail_file(path, "remove the file", error.value());
 }
 
-/// Did the run whose results lie there end by itself? A killed one has left no summary.
-bool has_ended(const fs::path& folder) {
+/// Empty where there is none: a killed run has left none.
+nlohmann::json summary_of(const fs::path& folder) {
   std::ifstream in(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(in, nullptr, false);
-  return summary.is_object() && summary.value("status", "") != "interrupted";
+  nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
+  return summary.is_object() ? std::move(summary) : nlohmann::json::object();
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -42,13 +42,19 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-void refuse_to_remove_unfinished(const fs::path& folder) {
+void refuse_to_remove_results(const fs::path& folder, const std::string& scene) {
+  const nlohmann::json summary = summary_of(folder);
+  const std::string status = summary.value("status", "interrupted"), there = summary.value("scene", scene);
   std::error_code error;
-  if (fs::exists(folder / newest, error) && !has_ended(folder))
+  if (status == "interrupted" && fs::exists(folder / newest, error))
     fail({Exit::file, "this folder holds a run that was interrupted and can go on", folder.string(), newest,
           "a folder without an unfinished run",
           fmt::format("riven run --restart {} goes on with it; -o names another folder; --overwrite begins anew",
                       folder.string())});
+  if (there != scene)
+    fail({Exit::file, "this folder holds the results of another scene", folder.string(), there,
+          fmt::format("a folder that is new, or holds results of {}", scene),
+          "-o names another folder; --overwrite removes what is there"});
 }
 
 CheckpointFile find_checkpoint(const fs::path& at) {

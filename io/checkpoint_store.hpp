@@ -1,6 +1,7 @@
 // The checkpoints of a folder of results: the newest, checkpoint.h5, and the one before, checkpoint.previous.h5.
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "io/checkpoint.hpp"
 
@@ -10,8 +11,9 @@ namespace riven {
 /// newest there is, a warning goes to standard error. Throws Error (file).
 CheckpointFile find_checkpoint(const std::filesystem::path& file_or_folder);
 
-/// Throws Error (file) if the folder holds an unfinished run that can go on: one that begins anew there removes it.
-void refuse_to_remove_unfinished(const std::filesystem::path& folder);
+/// Throws Error (file) if the folder holds an unfinished run that can go on, or results of a scene of another name: a
+/// run that begins there removes them.
+void refuse_to_remove_results(const std::filesystem::path& folder, const std::string& scene);
 
 class CheckpointStore {
  public:

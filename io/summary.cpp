@@ -37,6 +37,16 @@ Json by_name(const std::vector<T>& items, std::string T::*name, Make&& make) {
   return out;
 }
 
+/// Of keys, wherever they stand.
+Json units() {
+  return {
+      {"time", "s"},        {"wall_seconds", "s"}, {"seconds", "s"},     {"energy", "J"},     {"relative_error", "1"},
+      {"first_place", "m"}, {"place", "m"},        {"x", "m"},           {"y", "m"},          {"centre", "m"},
+      {"length", "m"},      {"grown", "m"},        {"max_opening", "m"}, {"speed", "m/s"},    {"mass", "kg"},
+      {"J", "J/m^2"},       {"J1", "J/m^2"},       {"J2", "J/m^2"},      {"reactions", "N"},  {"K_I", "Pa m^0.5"},
+      {"K_II", "Pa m^0.5"}, {"O_I", "Pa m^0.5"},   {"O_II", "Pa m^0.5"}, {"M_I", "Pa m^0.5"}, {"M_II", "Pa m^0.5"}};
+}
+
 }  // namespace
 
 std::vector<Summary::Crack> summarize_cracks(const Cracks& cracks, const std::vector<Tip>& tips) {
@@ -74,6 +84,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["exec"] = s.exec;
   j["scatter"] = s.scatter;
   j["precision"] = s.precision;
+  j["units"] = units();
   j["effects"] = s.effects;
   j["tasks"] = list(s.tasks, [](const Summary::Task& t) {
     return Json{{"label", t.label}, {"effect", t.effect}, {"calls", t.calls}, {"seconds", number(t.seconds)}};

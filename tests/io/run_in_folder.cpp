@@ -159,6 +159,19 @@ TEST(RunInFolder, AnInterruptedRunIsNotBegunAnewUnlessToldTo) {
   EXPECT_LT(run.summary()["steps"], steps);
 }
 
+TEST(RunInFolder, ResultsOfAnotherSceneAreNotRemovedUnlessToldTo) {
+  const LongRun run;
+  const std::string there = R"({"scene": "strip", "status": "done"})";
+  std::filesystem::create_directories(run.results());
+  write_file(run.results() / "summary.json", there);
+  const Program refused(run.arguments({"--wall-limit", "50 ms"}), run.printed());
+  run.expect(refused.end(), 4, {run.results().string(), "strip", "results of small", "--overwrite"});
+  EXPECT_EQ(sample::text_of(run.results() / "summary.json"), there);
+  const Program told(run.arguments({"--wall-limit", "50 ms", "--overwrite"}), run.printed());
+  run.expect(told.end(), 5, {"the wall limit"});
+  EXPECT_EQ(run.summary()["scene"], "small");
+}
+
 TEST(RunInFolder, ARestartIntoAnotherFolderTakesAlongWhatThereIs) {
   const LongRun run;
   const Program first(run.arguments({"--wall-limit", "300 ms", "--set", "output.frames=1000000"}), run.printed());
