@@ -79,7 +79,7 @@ class FaceParticles {
   /// energies only the first values are found (face_cheap): the others are dear.
   void take(const Source& from, const TipTask& task, int first, int count, bool energies) {
     take_places(from, first, count);
-    take_values(from, first, count);
+    take_values(from, task, first, count);
     for (int k = 0; energies && k < lanes; ++k)
       take_energies(from, task, first + std::min(k, count - 1), k);
   }
@@ -149,9 +149,9 @@ class FaceParticles {
     crossing_ = ((word_[0] | word_[1]) | (word_[2] | word_[3])) != 0;
   }
 
-  void take_values(const Source& from, int first, int count) {
+  void take_values(const Source& from, const TipTask& task, int first, int count) {
     const ParticleReads<Real>& p = from.reads;
-    const double inv = 1 / from.s.grid.lattice.h;
+    const double inv = 1 / from.s.grid.lattice.h, half = 0.5 * task.kinetic();
     double specific_area[lanes], inv_first[lanes];
     for (int k = 0; k < lanes; ++k) {
       const int body = from.s.particles.body[first + std::min(k, count - 1)];
@@ -166,7 +166,7 @@ class FaceParticles {
       values_[face_stress][k] = k < count ? density * state.xx : 0;
       values_[face_stress + 1][k] = k < count ? density * state.yy : 0;
       values_[face_stress + 2][k] = k < count ? density * state.xy : 0;
-      values_[face_kinetic][k] = k < count ? 0.5 * inv_first[k] * (vx * vx + vy * vy) : 0;
+      values_[face_kinetic][k] = k < count ? half * inv_first[k] * (vx * vx + vy * vy) : 0;
     }
   }
 

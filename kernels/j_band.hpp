@@ -13,21 +13,20 @@ struct Band {
   alignas(64) double rx[lanes], ry[lanes];  ///< m, from the tip
   alignas(64) double gx[lanes], gy[lanes];  ///< 1/m, gradient of q
   alignas(64) double vx[lanes], vy[lanes];
-  alignas(64) double mass[lanes];                         ///< kg/m, per thickness
-  alignas(64) double first_area[lanes];                   ///< m^2
-  alignas(64) double energy[lanes];                       ///< m^2/s^2, strain and kinetic energy per mass
+  alignas(64) double mass[lanes];        ///< kg/m, per thickness
+  alignas(64) double first_area[lanes];  ///< m^2
+  alignas(64) double energy[lanes];      ///< m^2/s^2, strain energy per mass, and kinetic where it counts
   alignas(64) double sxx[lanes], syy[lanes], sxy[lanes];  ///< m^2/s^2, Kirchhoff stress per mass
   alignas(64) double Fxx[lanes], Fxy[lanes], Fyx[lanes], Fyy[lanes];
 
   /// Takes `count` particles, up to as many as there are lanes; the numbers behind them are of particles too, which
   /// weigh nothing.
   template <class Law, class Real>
-  void take(const State<Real, 2>& s, const BodyLookup<Law>& law, const JDomain& domain, const int* particle,
-            int count) {
+  void take(const State<Real, 2>& s, const BodyLookup<Law>& law, const TipTask& task, const int* particle, int count) {
     if (law.single) {
       const Solid<Law> one{law.table[0], s.specific_area[0], 1 / s.thickness[0]};
       take_each(
-          s, [&](int) -> const Solid<Law>& { return one; }, domain, particle, count);
+          s, [&](int) -> const Solid<Law>& { return one; }, task, particle, count);
     } else {
       Solid<Law> solid[lanes];
       for (int k = 0; k < lanes; ++k) {
@@ -35,7 +34,7 @@ struct Band {
         solid[k] = {law.table[body], s.specific_area[body], 1 / s.thickness[body]};
       }
       take_each(
-          s, [&](int k) -> const Solid<Law>& { return solid[k]; }, domain, particle, count);
+          s, [&](int k) -> const Solid<Law>& { return solid[k]; }, task, particle, count);
     }
   }
 
@@ -93,7 +92,7 @@ struct Band {
   };
 
   template <class Real, class SolidOf>
-  void take_each(const State<Real, 2>& s, const SolidOf& solid_of, const JDomain& domain, const int* particle,
+  void take_each(const State<Real, 2>& s, const SolidOf& solid_of, const TipTask& task, const int* particle,
                  int count) {
     const Particles<Real, 2>& p = s.particles;
     alignas(64) int at[lanes];
@@ -102,7 +101,8 @@ struct Band {
     const Real *VX = p.v[0].data(), *VY = p.v[1].data();
     const Real *M = p.mass.data(), *SX = p.stress[0].data(), *SY = p.stress[1].data(), *SXY = p.stress[2].data();
     const double *A = p.F[0].data(), *B = p.F[1].data(), *C = p.F[2].data(), *D = p.F[3].data();
-    const JDomain d = domain;
+    const JDomain d = task.domain;
+    const double half = 0.5 * task.kinetic();
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const auto& solid = solid_of(k);
@@ -129,7 +129,7 @@ struct Band {
       vy[k] = v1;
       mass[k] = m * solid.inv_thickness;
       first_area[k] = first;
-      energy[k] = 0.5 * (v0 * v0 + v1 * v1) + solid.law.energy(state);
+      energy[k] = half * (v0 * v0 + v1 * v1) + solid.law.energy(state);
       sxx[k] = state.xx;
       syy[k] = state.yy;
       sxy[k] = state.xy;

@@ -24,10 +24,12 @@ struct Inertia {
     const double *A = s.particles.F[0].data(), *B = s.particles.F[1].data(), *C = s.particles.F[2].data(),
                  *D = s.particles.F[3].data();
     const Real *VX = s.particles.v[0].data(), *VY = s.particles.v[1].data();
+    const double kinetic = task.kinetic();
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const Mat2<double> F{A[i], B[i], C[i], D[i]}, H = task.gradient(F);
-      const double vx = VX[i], vy = VY[i], vgx = vx * gxx[k] + vy * gyx[k], vgy = vx * gxy[k] + vy * gyy[k];
+      const double vx = kinetic * VX[i], vy = kinetic * VY[i], vgx = vx * gxx[k] + vy * gyx[k],
+                   vgy = vx * gxy[k] + vy * gyy[k];
       sum_x[k] += mass[k] * (H.xx * ax[k] + H.yx * ay[k] - vgx * F.xx - vgy * F.yx);
       sum_y[k] += mass[k] * (H.xy * ax[k] + H.yy * ay[k] - vgx * F.xy - vgy * F.yy);
     });

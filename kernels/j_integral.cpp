@@ -162,7 +162,7 @@ class TipSummer {
     const int share = sums.next.left() * lanes / (3 * std::max(1, chosen.count)) + 1;
     Band band;
     for (int k = 0; k < chosen.count; k += lanes) {
-      band.take(s_, law_, task.domain, chosen.particle + k, std::min(lanes, chosen.count - k));
+      band.take(s_, law_, task, chosen.particle + k, std::min(lanes, chosen.count - k));
       ask_for(sums.next, share);
       band.add_j(task);
       ask_for(sums.next, share);

@@ -4,6 +4,10 @@
 //   a P_K  = (m/t) [ a_i (F_iK - delta_iK) - v_i (grad v F)_iK ]           (Nairn and Aimene, eq. 9, times F)
 // with m/t the mass per thickness, w the strain energy and tau the Kirchhoff stress per mass. For small strains this is
 // the integral as printed; at any strain and rotation it is that of the crack's length when it was stress-free.
+//
+// v_i (grad v F)_iK is the gradient of v^2/2. Around a tip at rest, where v is finite, Green's theorem makes what it
+// adds to the area the opposite of what v^2/2 adds to the band and the faces. So there v counts in neither: a body that
+// spins at omega would else have J of rho omega^2 x_tip times the area within the contour where inertia is left out.
 #pragma once
 #include <limits>
 #include <vector>
@@ -46,6 +50,8 @@ struct TipTask {
   bool interaction = false;               ///< and for TipSums::interaction
   TipSums sums{};
 
+  /// Share of v^2 / 2 in J.
+  double kinetic() const { return running.speed > 0 ? 1 : 0; }
   /// Displacement gradient F - R of what has turned by R with the tip.
   template <class Real>
   Mat2<double> gradient(const Mat2<Real>& F) const {
