@@ -81,7 +81,7 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
   const double grown = plan.watch_energy ? e.unaccounted() : std::min(e.numerical(), e.unaccounted());
   const double lag = work_lag(plan, s.clock.step);
   // contact takes energy; what it gives to short waves, which the transfer then wears down, is no gain
-  const double most_given = std::max(0.2, limit), given = -(e.contact + e.transfer);
+  const double most_given = std::max(0.2, limit), given = -e.contact - std::max(0.0, e.transfer);
   if (plan.contact && given > most_given * e.largest)
     stop(s, fastest_particle(s.particles), "contact makes energy; the fastest particle is named",
          fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * given / e.largest, e.largest),

@@ -213,6 +213,25 @@ TEST(Stops, CountWhatContactMakes) {
   EXPECT_NO_THROW(m.take_stock());
 }
 
+/// FMPM gives energy, too, in the first steps after a load that begins at once: none of that is contact's.
+TEST(Stops, DoNotTakeTheTransferForContact) {
+  Scene s = resting_block();
+  s.transfer = Transfer::fmpm;
+  s.order = 2;
+  CrackLine& cut = s.cracks.emplace_back();
+  cut.name = "cut";
+  cut.points = {{0.2, 0.27}, {0.8, 0.27}};
+  cut.traction = TractionSettings{};
+  cut.traction->kind = TractionKind::pressure;
+  cut.traction->pressure = TimeFunction{1, {}, ""};
+  const ChosenSpace space;
+  Simulation m(s, space);
+  for (int step = 0; step < 20; ++step) {
+    m.step();
+    EXPECT_NO_THROW(m.take_stock()) << step;
+  }
+}
+
 /// A block that flies at `speed` towards the wall of its grid, 50 mm away.
 std::string write_scene(const sample::Folder& folder, const std::string& speed, const std::string& more = "") {
   std::string path = (folder / "scene.toml").string();
