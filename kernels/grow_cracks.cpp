@@ -17,7 +17,7 @@ namespace riven {
 namespace {
 
 constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face each other, and are in each other's way
-constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on
+constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
 constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
 
@@ -149,7 +149,8 @@ class Growth {
       return join(*open, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
     book(segment);
-    extend_crack(s_.cracks, tip_.crack, tip_.last, to + beyond * way, first(to) + beyond * way);
+    const double on = way_before_solid(s_, to, way, beyond, particle_);
+    extend_crack(s_.cracks, tip_.crack, tip_.last, to + on * way, first(to) + on * way);
     close(tip_, CrackEvent::Kind::exit, to, -1);
   }
 

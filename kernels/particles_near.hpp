@@ -41,6 +41,19 @@ bool solid_ahead(const State<Real, 2>& s, Vec2 x, Vec2 way, double particle) {
   return found;
 }
 
+/// How far one comes from x along `way`, up to `reach`, before there is solid again: to half a particle before the
+/// first particle in a strip of one to either side.
+template <class Real>
+double way_before_solid(const State<Real, 2>& s, Vec2 x, Vec2 way, double reach, double particle) {
+  double nearest = reach + particle;
+  each_particle_near(s, x, reach + 2 * particle, [&](int k) {
+    const Vec2 r = Vec2{s.particles.x[0][k], s.particles.x[1][k]} - x;
+    if (const double on = dot(r, way); on > 1e-6 * particle && std::fabs(cross(way, r)) < particle)
+      nearest = std::min(nearest, on);
+  });
+  return std::max(0.0, nearest - particle);
+}
+
 /// The body of the particle nearest to x, or `otherwise` where there is none within `radius`.
 template <class Real>
 int body_near(const State<Real, 2>& s, Vec2 x, double radius, int otherwise) {

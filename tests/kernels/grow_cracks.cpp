@@ -155,6 +155,30 @@ TEST(GrowCracks, LeaveIntoAHoleAndAtASlant) {
             true);
 }
 
+/// Another body stands 1 m, two particles, beyond the edge; and the far side of a slot does.
+TEST(GrowCracks, LeaveWithoutCuttingWhatIsBeyond) {
+  for (const bool slot : {false, true}) {
+    Scene scene = plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}, 25);
+    if (slot) {
+      scene.bodies[0].holes = {Rectangle{{14, 6}, {15, 10}}};
+    } else {
+      scene.bodies[0].region = Rectangle{{0, 0}, {14, 16}};
+      scene.bodies.push_back(scene.bodies[0]);
+      scene.bodies[1].name = "beyond";
+      scene.bodies[1].region = Rectangle{{15, 0}, {17, 16}};
+    }
+    Driven run(scene, open);
+    run.to_the_end();
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+    EXPECT_NEAR(run.m.state.events.back().place.x, 14, 0.6);
+    EXPECT_GT(run.end(0, true).x, 14.2);
+    EXPECT_LT(run.end(0, true).x, 15);
+    run.steps(1);
+    // 1 below, 2 above in what is beyond, which still share nodes
+    EXPECT_GT(run.shared_fields([](Vec2 x) { return x.x < 15 ? 0 : 1 + (x.y > 8.1); }), 0) << slot;
+  }
+}
+
 /// A crack grows into one that goes through the plate; three parts share nothing, then and later, while all move.
 TEST(GrowCracks, JoinACrackInTheWay) {
   for (const double y : {8., 8.1})
