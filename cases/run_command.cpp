@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -105,8 +106,10 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   if (!s.fragments.empty())
     print_growth(s);
   for (const Summary::Warning& w : s.warnings)
-    fmt::print("warning: {} ({} times, first at ({:.4g}, {:.4g}) m)\n", w.kind, w.count, w.first_place.x,
-               w.first_place.y);
+    fmt::print("warning: {} ({} times{})\n", w.kind, w.count,
+               std::isnan(w.first_place.x)
+                   ? ""
+                   : fmt::format(", first at ({:.4g}, {:.4g}) m", w.first_place.x, w.first_place.y));
   for (const Retry& r : s.retries)
     fmt::print("went back from step {} to step {}, to go on with a CFL number of {:.4g}\n", r.step, r.back_to, r.cfl);
   fmt::print("results in {}\n", folder.string());

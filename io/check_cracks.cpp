@@ -11,6 +11,7 @@ namespace {
 
 constexpr double most_segments = 1e7;
 constexpr size_t most_compared = 10000;  // cracks, in pairs
+constexpr int pieces = 7;                // of each straight part of a crack, that are compared
 constexpr double most_samples = 1e5;     // of all cracks together, to find one point in a body
 
 bool solid(const Scene& s, Vec2 p) {
@@ -49,22 +50,37 @@ void check_waiting(const Scene& s, const CrackLine& c) {
            "contact.when = \"always\"");
 }
 
-/// Does a crack lie on another one all along? Both ends of one that closes another to a ring do, too.
-bool lies_on(const CrackLine& c, const CrackLine& other, double tolerance) {
-  constexpr int pieces = 7;  // of each straight part
+using Points = std::vector<Vec2>;
+
+/// Does a line lie on another one all along? Both ends of one that closes another to a ring do, too.
+bool lies_on(const Points& line, const Points& other, double tolerance) {
   const auto on_other = [&](Vec2 x) {
-    for (size_t i = 1; i < other.points.size(); ++i) {
-      const Vec2 a = other.points[i - 1], d = other.points[i] - a;
+    for (size_t i = 1; i < other.size(); ++i) {
+      const Vec2 a = other[i - 1], d = other[i] - a;
       if (norm(x - a - std::clamp(dot(x - a, d) / dot(d, d), 0., 1.) * d) < tolerance)
         return true;
     }
     return false;
   };
-  for (size_t i = 1; i < c.points.size(); ++i)
+  for (size_t i = 1; i < line.size(); ++i)
     for (int k = 0; k <= pieces; ++k)
-      if (!on_other(c.points[i - 1] + (double(k) / pieces) * (c.points[i] - c.points[i - 1])))
+      if (!on_other(line[i - 1] + (double(k) / pieces) * (line[i] - line[i - 1])))
         return false;
   return true;
+}
+
+/// Does a line lie on an earlier part of itself for some length? Where parts only meet or cross it does not. Of long
+/// ones only parts that are near along the line are compared.
+bool lies_on_itself(const Points& line, double tolerance) {
+  constexpr size_t most_back = 300;  // segments
+  for (size_t j = 2; j < line.size(); ++j) {
+    const Vec2 from = line[j - 1], piece = (1. / pieces) * (line[j] - from);
+    for (size_t i = j > most_back ? j - most_back : 1; i < j; ++i)
+      for (int k = 0; k < pieces; ++k)
+        if (lies_on({from + double(k) * piece, from + (k + 1.) * piece}, {line[i - 1], line[i]}, tolerance))
+          return true;
+  }
+  return false;
 }
 
 /// Faces of cracks that lie on each other are the same, and so are their ends, none of which is a tip then.
@@ -73,10 +89,15 @@ void check_doubles(const Scene& s) {
     return;
   for (const CrackLine& c : s.cracks)
     for (const CrackLine& other : s.cracks)
-      if (&c != &other && lies_on(c, other, 0.01 * s.cell))
+      if (&c != &other && lies_on(c.points, other.points, 0.01 * s.cell))
         refuse(s, "crack " + c.name, "the crack lies on another one, crack " + other.name,
                text(c.points.front()) + " to " + text(c.points.back()), "cracks that meet or cross, at most",
                "only one of them");
+  for (const CrackLine& c : s.cracks)
+    if (lies_on_itself(c.points, 0.01 * s.cell))
+      refuse(s, "crack " + c.name, "the crack turns back and lies on itself",
+             text(c.points.front()) + " to " + text(c.points.back()), "a line that crosses itself, at most",
+             "points in their order along the crack");
 }
 
 /// Growth asked for must have a tip to grow from, and J one to be found at.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <variant>
 
+#include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
 
@@ -14,8 +17,11 @@ using namespace checks;
 namespace {
 
 constexpr double shortest_crack = 2;    // cells: of one of a cell J is 0 to 9 %, of one of two within 10 % of all of it
+constexpr double shortest_zone = 3;     // cells: with 0.3 a beam bears twice its load
 constexpr double heaviest = 23e3;       // kg/m^3: osmium, and a little
 constexpr double lightest = 1;          // kg/m^3: aerogel
+constexpr double most_area = 0.02;      // of a rectangle, that its particles may have more or less
+constexpr double most_steps = 0.05;     // of other shapes, whose edges have steps
 constexpr double fastest_waves = 20e3;  // m/s: diamond, and a little
 
 void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
@@ -31,7 +37,34 @@ void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
+double area_of(const Region& region) {
+  if (const auto* d = std::get_if<Disk>(&region))
+    return std::numbers::pi * d->radius * d->radius;
+  if (const auto* r = std::get_if<Rectangle>(&region))
+    return (r->upper.x - r->lower.x) * (r->upper.y - r->lower.y);
+  const auto& p = std::get<Polygon>(region).points;
+  double twice = 0;
+  for (size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
+    twice += cross(p[j], p[i]);
+  return 0.5 * std::fabs(twice);
+}
+
+/// Bodies hold what their particles do, and not what was drawn.
+void doubt_edges(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  const double spacing = s.cell / b.particles_per_cell, drawn = area_of(b.region);
+  const std::vector<Vec2> points =
+      lay_points(b.region, {}, make_lattice(s.grid.lower, s.grid.upper, s.cell), b.particles_per_cell);
+  const double more = static_cast<double>(points.size()) * spacing * spacing / drawn - 1;
+  if (std::fabs(more) > (std::holds_alternative<Rectangle>(b.region) ? most_area : most_steps))
+    list.push_back({place(s, "body " + b.name),
+                    fmt::format("its edges lie between particles, which make up {:.0f} % {} than what was drawn",
+                                100 * std::fabs(more), more > 0 ? "more" : "less"),
+                    "try cells that divide its sides, or smaller ones"});
+}
+
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
+  for (const Body& b : s.bodies)
+    doubt_edges(s, b, list);
   for (const Body& b : s.bodies)
     for (const Region& hole : b.holes) {
       const Vec2 size = bounds(hole).upper - bounds(hole).lower;
@@ -80,12 +113,35 @@ void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
+/// The zone in which a cohesive law gives way ahead of a tip is some E G / strength^2 long.
+void doubt_zone(const Scene& s, const CrackLine& c, std::vector<Doubt>& list) {
+  if (!c.traction || c.traction->kind == TractionKind::pressure)
+    return;
+  const std::vector<Tip> tips = make_tips(s);
+  const bool front = c.traction->region || std::any_of(tips.begin(), tips.end(), [&](const Tip& t) {
+                       return &s.cracks[static_cast<size_t>(t.crack)] == &c;
+                     });
+  const auto body = std::find_if(c.points.begin(), c.points.end(), [&](Vec2 x) { return body_at(s, x) >= 0; });
+  const Material& m = s.materials[static_cast<size_t>(
+      s.bodies[body == c.points.end() ? 0 : static_cast<size_t>(body_at(s, *body))].material)];
+  const double strength = c.traction->strength, zone = m.E * c.traction->toughness / (strength * strength);
+  if (front && zone < shortest_zone * s.cell)
+    list.push_back(
+        {place(s, "crack " + c.name),
+         fmt::format("its cohesive zone is some {:.2g} cells long, E G / strength^2, and too strong for them",
+                     zone / s.cell),
+         fmt::format("try grid.cell = \"{:.3g} mm\", or less strength at the same toughness",
+                     1e3 * zone / shortest_zone)});
+}
+
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
   for (const CrackLine& c : s.cracks)
     if (const double cells = length(c) / s.cell; cells < shortest_crack)
       list.push_back({place(s, "crack " + c.name),
                       fmt::format("a crack of {:.3g} cells may not open, as all of its nodes see its tips", cells),
                       fmt::format("try grid.cell = \"{:.3g} mm\"", 1e3 * length(c) / (2 * shortest_crack))});
+  for (const CrackLine& c : s.cracks)
+    doubt_zone(s, c, list);
   if (!s.fracture.asked)
     return;
   if (s.fracture.contour <= 2)
@@ -102,6 +158,7 @@ std::vector<Doubt> doubts(const Scene& s) {
   std::vector<Doubt> list;
   doubt_materials(s, list);
   doubt_solids(s, list);
+  doubt_loads(s, list);
   doubt_cracks(s, list);
   return list;
 }

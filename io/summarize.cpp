@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <variant>
 
 #include "core/scene/names.hpp"
+#include "core/state/monitors.hpp"
 #include "io/peak_memory.hpp"
 #include "io/tip_report.hpp"
 
@@ -13,36 +13,9 @@ namespace riven {
 
 namespace {
 
-/// Rectangles whose edges lie between particles hold what the particles do, and not what was drawn.
-template <class Real>
-void warn_of_edges(const SimulationOf<Real>& m, std::vector<Summary::Warning>& list) {
-  constexpr double most = 0.02;  // of the area
-  const auto& p = m.state.particles;
-  std::vector<double> area(m.scene.bodies.size());
-  std::vector<long> count(m.scene.bodies.size());
-  for (long i = 0; i < p.count(); ++i) {
-    area[p.body[i]] += p.mass[i] * m.state.specific_area[p.body[i]];
-    ++count[p.body[i]];
-  }
-  for (size_t b = 0; b < area.size(); ++b) {
-    const Body& body = m.scene.bodies[b];
-    const auto* drawn = std::get_if<Rectangle>(&body.region);
-    if (!drawn || !body.holes.empty())
-      continue;
-    const Vec2 size = drawn->upper - drawn->lower;
-    const double more = area[b] / (size.x * size.y) - 1;
-    if (std::abs(more) > most)
-      list.push_back({fmt::format("the edges of body '{}' lie between particles: they make up {:.0f} % {} than its "
-                                  "rectangle; cells that divide its sides would not",
-                                  body.name, 100 * std::abs(more), more > 0 ? "more" : "less"),
-                      count[b], drawn->lower});
-  }
-}
-
 template <class Real>
 std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   std::vector<Summary::Warning> list;
-  warn_of_edges(m, list);
   const CrackFields& f = m.state.fields;
   if (f.warning_both_sides > 0)
     list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
@@ -50,7 +23,7 @@ std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
     list.push_back({"a node sees more than three cracks", f.warning_fourth_crack, f.warning_place[1]});
   const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
   if (capped > 0)
-    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, {}});
+    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, nowhere});
   const FractureReport& j = m.fracture;
   const auto say = [&](const char* kind, long count, Vec2 place) {
     if (count > 0)

@@ -31,7 +31,7 @@ struct Summary {
   struct Warning {
     std::string kind;
     long count = 0;
-    Vec2 first_place;  ///< m
+    Vec2 first_place;  ///< m; NaN where none is known
   };
   struct Watched {
     std::string figure;

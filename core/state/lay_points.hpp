@@ -8,7 +8,7 @@
 namespace riven {
 
 /// Points at the centres of per_cell x per_cell equal parts of each grid cell, where they lie in the region and in no
-/// hole; row by row from below.
+/// hole; row by row from below. Of the points on straight edges a region has those at its left and below.
 std::vector<Vec2> lay_points(const Region& region, const std::vector<Region>& holes, const Lattice& lattice,
                              int per_cell);
 

@@ -49,7 +49,7 @@ solid = "above"
 [[load]]
 kind = "traction"
 edge = "top"
-rectangle = { lower = ["0 mm", "0 mm"], upper = ["20 mm", "20 mm"] }
+rectangle = { lower = ["0 mm", "19 mm"], upper = ["20 mm", "20 mm"] }
 traction_x = "0 Pa"
 [growth]
 toughness = "1 MPa m^0.5"

@@ -76,12 +76,67 @@ TEST(Doubts, NameHolesBetweenParticles) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameBodiesWhoseParticlesAreNotWhatWasDrawn) {
+  Scene s = sound_scene();
+  s.bodies[0].region = Rectangle{{0, 0}, {40e-3, 40.1e-3}};
+  EXPECT_TRUE(doubts(s).empty());
+  s.grips.clear();
+  s.bodies[0].region = Rectangle{{0, 19e-3}, {40e-3, 22.2e-3}};  // six rows of half a millimetre
+  expect_doubt(s, "body plate", "6 % less");
+  s.bodies[0].region = Rectangle{{0.25e-3, 19.25e-3}, {40.25e-3, 22.25e-3}};  // its edges through particles
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].region = Disk{{20e-3, 20e-3}, 5e-3};
+  s.cracks.clear();
+  s.fracture.asked = false;
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].region = Polygon{{{0, 0}, {0.9e-3, 0}, {0, 1e-3}}};
+  expect_doubt(s, "body plate", "than what was drawn");
+}
+
 TEST(Doubts, NameCracksTooShortToOpen) {
   Scene s = sound_scene();
   s.cracks[0].points = {{19.5e-3, 20.5e-3}, {20.5e-3, 20.5e-3}};
   expect_doubt(s, "crack edge", "may not open");
   s.cracks[0].points = {{19e-3, 20.5e-3}, {21.5e-3, 20.5e-3}};
   EXPECT_TRUE(doubts(s).empty());
+}
+
+TEST(Doubts, NameTractionsOnObliqueEdgesAndInHoles) {
+  Scene s = sound_scene();
+  s.grips.clear();
+  Load pull;
+  pull.name = "pull";
+  pull.kind = Load::Kind::traction;
+  pull.edge = Load::Edge::top;
+  pull.region = Rectangle{{0, 0}, {40e-3, 40e-3}};
+  pull.value[1] = TimeFunction{1e6, {}, ""};
+  s.loads = {pull};
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].holes = {Disk{{30e-3, 30e-3}, 4e-3}};
+  expect_doubt(s, "load pull", "in a hole of body plate");
+  s.loads[0].region = Rectangle{{0, 35e-3}, {40e-3, 40e-3}};
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].region = Polygon{{{0, 0}, {40e-3, 0}, {40e-3, 36e-3}, {0, 40e-3}}};
+  expect_doubt(s, "load pull", "projection");
+}
+
+/// E G / strength^2 of 10 mm and of 2.5 mm.
+TEST(Doubts, NameCohesiveZonesTooShortForTheCells) {
+  for (const double strength : {145e6, 290e6}) {
+    Scene s = sound_scene();
+    s.cracks[0].points.back().x = 41e-3;
+    s.fracture.asked = false;
+    TractionSettings& t = s.cracks[0].traction.emplace();
+    t.kind = TractionKind::triangular;
+    t.strength = t.shear_strength = strength;
+    t.toughness = t.shear_toughness = 1e3;
+    EXPECT_TRUE(doubts(s).empty());  // it gives way everywhere at once
+    t.region = Rectangle{{12e-3, 0}, {41e-3, 40e-3}};
+    if (strength > 200e6)
+      expect_doubt(s, "crack edge", "cohesive zone");
+    else
+      EXPECT_TRUE(doubts(s).empty());
+  }
 }
 
 TEST(Doubts, NameTheSmallestContour) {

@@ -142,6 +142,8 @@ const Wrong cases[] = {
     {"crack_twice", "[[crack]]",
      "[[crack]]\nname = \"part\"\npoints = [[\"20 mm\", \"50 mm\"], [\"10 mm\", \"50 mm\"]]\n[[crack]]",
      "plate.toml:26: crack.0", "lies on another one, crack edge", "only one"},
+    {"crack_folded", ", [\"25 mm\", \"50 mm\"]]", ", [\"25 mm\", \"50 mm\"], [\"15 mm\", \"50 mm\"]]",
+     "plate.toml:26: crack.0", "turns back and lies on itself", "in their order"},
     {"crack_off_grid", "[\"-1 mm\", \"50 mm\"]", "[\"-9 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
      "the crack leaves it", "larger grid"},
     {"crack_without_length", "[\"-1 mm\", \"50 mm\"]", "[\"25 mm\", \"50 mm\"]", "plate.toml:26: crack.0",
