@@ -227,10 +227,18 @@ std::vector<std::int64_t> HdfFile::integer_attribute(const std::string& object, 
   return values;
 }
 
-bool HdfFile::is_integer(const std::string& dataset) const {
+HdfId HdfFile::type_of_dataset(const std::string& dataset) const {
   const HdfId id(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "read " + dataset), H5Dclose);
-  const HdfId type(check(H5Dget_type(id), "read " + dataset), H5Tclose);
-  return H5Tget_class(type) == H5T_INTEGER;
+  return {check(H5Dget_type(id), "read " + dataset), H5Tclose};
+}
+
+bool HdfFile::is_integer(const std::string& dataset) const {
+  return H5Tget_class(type_of_dataset(dataset)) == H5T_INTEGER;
+}
+
+bool HdfFile::is_float(const std::string& dataset) const {
+  const HdfId type = type_of_dataset(dataset);
+  return H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) == sizeof(float);
 }
 
 std::vector<std::size_t> HdfFile::extent(const std::string& dataset) const {
@@ -261,6 +269,7 @@ template void HdfFile::put_attribute(const std::string&, const std::string&, con
 template void HdfFile::put_attribute(const std::string&, const std::string&, const std::vector<std::int64_t>&);
 template void HdfFile::put_attribute(const std::string&, const std::string&, const std::vector<std::int32_t>&);
 template void HdfFile::append(const std::string&, const double*, std::size_t, std::size_t);
+template void HdfFile::append(const std::string&, const float*, std::size_t, std::size_t);
 template void HdfFile::append(const std::string&, const std::int64_t*, std::size_t, std::size_t);
 template void HdfFile::append(const std::string&, const std::int32_t*, std::size_t, std::size_t);
 template void HdfFile::put(const std::string&, const double*, std::size_t);

@@ -40,8 +40,8 @@ class HdfId {
   Close close_ = nullptr;
 };
 
-/// Paths of groups and datasets are as in HDF5, "/VTKHDF/Points". T is double, std::int64_t or std::int32_t; in put and
-/// read it may be float or std::uint8_t, too.
+/// Paths of groups and datasets are as in HDF5, "/VTKHDF/Points". T is double, float, std::int64_t or std::int32_t; in
+/// put and read it may be std::uint8_t, too.
 class HdfFile {
  public:
   /// A new file, which has its name only after commit(). Its first `own_bytes` (0, or a power of two from 512 on) are
@@ -76,6 +76,7 @@ class HdfFile {
   std::string text_attribute(const std::string& object, const std::string& name) const;
   std::vector<std::int64_t> integer_attribute(const std::string& object, const std::string& name) const;
   bool is_integer(const std::string& dataset) const;
+  bool is_float(const std::string& dataset) const;  ///< of 32 bits
   /// {rows} of a plain list, {rows, width} else.
   std::vector<std::size_t> extent(const std::string& dataset) const;
   template <class T>
@@ -83,6 +84,7 @@ class HdfFile {
 
  private:
   explicit HdfFile(std::filesystem::path path) : path_(std::move(path)) {}
+  HdfId type_of_dataset(const std::string& dataset) const;
   hid_t check(hid_t result, const std::string& attempt) const;
   [[noreturn]] void fail(const std::string& attempt) const;
 

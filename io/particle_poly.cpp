@@ -20,6 +20,11 @@ Order order_by_id(const Particles<Real, 2>& p) {
   return std::make_shared<const std::vector<int>>(std::move(order));
 }
 
+template <class T, class... X>
+void put(std::vector<T>& out, X... x) {
+  (out.push_back(static_cast<T>(x)), ...);
+}
+
 /// An array that, when it is made, calls row(i, out) for each particle i in `order` to append `components` numbers.
 template <class T, class Row>
 PolyArray gather(std::string name, std::string unit, int components, const Order& order, const Row& row) {
@@ -37,8 +42,6 @@ PolyArray gather(std::string name, std::string unit, int components, const Order
 
 template <class Real>
 PolyData particle_poly(const Particles<Real, 2>& p, const Scene& scene) {
-  using Reals = std::vector<double>;
-  using Integers = std::vector<std::int64_t>;
   const Order order = order_by_id(p);
   const std::size_t n = order->size();
 
@@ -55,37 +58,35 @@ PolyData particle_poly(const Particles<Real, 2>& p, const Scene& scene) {
   for (const int i : *order)
     d.points.insert(d.points.end(), {p.x[0][i], p.x[1][i], 0.0});
 
-  auto& a = d.point_arrays;
-  a.push_back(gather<std::int64_t>("id", "", 1, order, [&p](int i, Integers& o) { o.push_back(p.id[i]); }));
-  a.push_back(gather<std::int64_t>("body", "", 1, order, [&p](int i, Integers& o) { o.push_back(p.body[i]); }));
-  a.push_back(
-      gather<std::int64_t>("material", "", 1, order, [=](int i, Integers& o) { o.push_back(body(i).material); }));
-  a.push_back(gather<double>("size", "m", 1, order,
-                             [=, &scene](int i, Reals& o) { o.push_back(scene.cell / body(i).particles_per_cell); }));
-  a.push_back(gather<double>("velocity", "m/s", 3, order, [&p](int i, Reals& o) {
-    o.insert(o.end(), {double(p.v[0][i]), double(p.v[1][i]), 0.0});
-  }));
+  const auto integers = [&](const char* name, const auto& row) {
+    d.point_arrays.push_back(gather<std::int64_t>(name, "", 1, order, row));
+  };
+  const bool single = scene.output.precision == Precision::as_float;
+  const auto reals = [&](const char* name, const char* unit, int components, const auto& row) {
+    d.point_arrays.push_back(single ? gather<float>(name, unit, components, order, row)
+                                    : gather<double>(name, unit, components, order, row));
+  };
+  integers("id", [&p](int i, auto& o) { put(o, p.id[i]); });
+  integers("body", [&p](int i, auto& o) { put(o, p.body[i]); });
+  integers("material", [=](int i, auto& o) { put(o, body(i).material); });
+  reals("size", "m", 1, [=, &scene](int i, auto& o) { put(o, scene.cell / body(i).particles_per_cell); });
+  reals("velocity", "m/s", 3, [&p](int i, auto& o) { put(o, p.v[0][i], p.v[1][i], 0); });
   if (!p.x0[0].empty())
-    a.push_back(gather<double>("displacement", "m", 3, order, [&p](int i, Reals& o) {
-      o.insert(o.end(), {p.x[0][i] - p.x0[0][i], p.x[1][i] - p.x0[1][i], 0.0});
-    }));
-  a.push_back(gather<double>("stress", "Pa", 6, order, [=](int i, Reals& o) {
+    reals("displacement", "m", 3, [&p](int i, auto& o) { put(o, p.x[0][i] - p.x0[0][i], p.x[1][i] - p.x0[1][i], 0); });
+  reals("stress", "Pa", 6, [=](int i, auto& o) {
     const CauchyStress s = stress->cauchy(i);
-    o.insert(o.end(), {s.xx, s.yy, s.zz, s.xy, 0.0, 0.0});
-  }));
-  a.push_back(
-      gather<double>("von_mises", "Pa", 1, order, [=](int i, Reals& o) { o.push_back(von_mises(stress->cauchy(i))); }));
-  a.push_back(gather<double>("J", "", 1, order, [=](int i, Reals& o) { o.push_back(stress->volume_ratio(i)); }));
+    put(o, s.xx, s.yy, s.zz, s.xy, 0, 0);
+  });
+  reals("von_mises", "Pa", 1, [=](int i, auto& o) { put(o, von_mises(stress->cauchy(i))); });
+  reals("J", "", 1, [=](int i, auto& o) { put(o, stress->volume_ratio(i)); });
   if (!p.F[0].empty())
-    a.push_back(gather<double>("deformation_gradient", "", 4, order, [&p](int i, Reals& o) {
-      o.insert(o.end(), {p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]});
-    }));
+    reals("deformation_gradient", "", 4, [&p](int i, auto& o) { put(o, p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]); });
   const auto& extra = scene.output.fields;
   if (std::find(extra.begin(), extra.end(), "fringe") != extra.end())
-    a.push_back(gather<double>("fringe", "", 1, order, [=, &scene](int i, Reals& o) {
+    reals("fringe", "", 1, [=, &scene](int i, auto& o) {
       const CauchyStress s = stress->cauchy(i);
-      o.push_back(std::cos(scene.output.fringe_constant * std::hypot(s.xx - s.yy, 2 * s.xy)));
-    }));
+      put(o, std::cos(scene.output.fringe_constant * std::hypot(s.xx - s.yy, 2 * s.xy)));
+    });
   return d;
 }
 

@@ -8,7 +8,7 @@
 
 namespace riven {
 
-using PolyValues = std::variant<std::vector<double>, std::vector<std::int64_t>>;
+using PolyValues = std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<float>>;
 
 /// One value per point or per cell: rows of `components` numbers. The name holds neither '/' nor '.'.
 struct PolyArray {
@@ -20,6 +20,10 @@ struct PolyArray {
   /// are. A frame of particles takes more memory than their state does, one array of it at a time a sixth of that.
   std::function<PolyValues()> make = {};
 
+  template <class T>
+  bool holds() const {
+    return std::holds_alternative<std::vector<T>>(data);
+  }
   /// f(vector of the values).
   template <class F>
   void visit(const F& f) const {

@@ -79,8 +79,8 @@ Probe read_probe(const Table& t, size_t i, const Scene& s) {
 }  // namespace
 
 void read_output(const Table& root, Scene& s) {
-  const Table t = root.table(
-      "output", {"frames", "history_every", "sidecar", "fields", "fringe_constant", "checkpoint", "checkpoint_steps"});
+  const Table t = root.table("output", {"frames", "history_every", "sidecar", "precision", "fields", "fringe_constant",
+                                        "checkpoint", "checkpoint_steps"});
   s.output.frames = t.integer("frames", 0, most_frames, s.output.frames);
   s.output.history_every =
       t.quantity("history_every", dimension::time, range::positive, s.output.history_every, "1/250 of solver.time");
@@ -89,6 +89,7 @@ void read_output(const Table& root, Scene& s) {
   s.output.checkpoint_steps =
       t.integer("checkpoint_steps", 0, most_steps, s.limits.retries > 0 ? retry_steps : s.output.checkpoint_steps);
   s.output.sidecar = t.choice("sidecar", std::optional(s.output.sidecar));
+  s.output.precision = t.choice("precision", std::optional(s.output.precision));
   s.output.fields = t.texts("fields");
   for (const std::string& field : s.output.fields)
     if (field != "fringe")

@@ -13,8 +13,8 @@ void read_grid(const Table& root, Scene& s) {
 }
 
 void read_thresholds(const Table& limits, const char* name, Thresholds& thresholds) {
-  const Table t =
-      limits.table(name, {"energy", "momentum", "compression", "expansion", "penetration", "velocity_difference"});
+  const Table t = limits.table(name, {"energy", "momentum", "angular_momentum", "compression", "expansion", "stretch",
+                                      "penetration", "velocity_difference"});
   for (const auto& [which, key] : Names<Watched>::table) {
     double& limit = thresholds[static_cast<size_t>(which)];
     if (which == Watched::velocity_difference) {

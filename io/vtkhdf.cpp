@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -32,7 +33,10 @@ void append_one(HdfFile& file, const std::string& dataset, T value) {
 }
 
 std::string signature(const std::string& group, const PolyArray& a) {
-  return group + "/" + a.name + " [" + std::to_string(a.components) + "] " + (a.data.index() == 0 ? "real" : "integer");
+  return fmt::format("{}/{} [{}] {}", group, a.name, a.components,
+                     a.holds<double>()  ? "double"
+                     : a.holds<float>() ? "float"
+                                        : "integer");
 }
 
 }  // namespace
@@ -148,6 +152,12 @@ void write_vtkhdf(const fs::path& path, PolyData data, double time) {
 
 namespace {
 
+template <class T>
+void read_when_wanted(const std::shared_ptr<const HdfFile>& file, const std::string& dataset, PolyArray& a) {
+  a.data = std::vector<T>{};
+  a.make = [=]() -> PolyValues { return file->read<T>(dataset); };
+}
+
 /// Arrays that are read when they are wanted.
 std::vector<PolyArray> list_arrays(const std::shared_ptr<const HdfFile>& file, const std::string& group) {
   std::vector<PolyArray> arrays;
@@ -156,16 +166,55 @@ std::vector<PolyArray> list_arrays(const std::shared_ptr<const HdfFile>& file, c
     PolyArray a{name, 1, file->has_attribute(dataset, "unit") ? file->text_attribute(dataset, "unit") : "", {}};
     if (const auto extent = file->extent(dataset); extent.size() == 2)
       a.components = static_cast<int>(extent[1]);
-    if (file->is_integer(dataset)) {
-      a.data = std::vector<std::int64_t>{};
-      a.make = [=]() -> PolyValues { return file->read<std::int64_t>(dataset); };
-    } else {
-      a.make = [=]() -> PolyValues { return file->read<double>(dataset); };
-    }
+    if (file->is_integer(dataset))
+      read_when_wanted<std::int64_t>(file, dataset, a);
+    else if (file->is_float(dataset))
+      read_when_wanted<float>(file, dataset, a);
+    else
+      read_when_wanted<double>(file, dataset, a);
     arrays.push_back(std::move(a));
   }
   return arrays;
 }
+
+/// Arrays of a group that all frames have, and as what: double where some are float and others not. A run that went on
+/// may have had other fields, or their precision, from then on.
+class CommonArrays {
+ public:
+  void meet(std::vector<PolyArray> arrays) {
+    if (std::exchange(first_, false))
+      all_ = std::move(arrays);
+    else
+      std::erase_if(all_, [&](PolyArray& mine) {
+        const PolyArray* other = named(mine.name, arrays);
+        if (other && mine.holds<float>() && other->holds<double>())
+          mine.data = std::vector<double>{};
+        return !other || other->components != mine.components ||
+               other->holds<std::int64_t>() != mine.holds<std::int64_t>();
+      });
+  }
+  /// Keeps of the arrays what is common, as what is common.
+  void keep(std::vector<PolyArray>& arrays) const {
+    std::erase_if(arrays, [&](const PolyArray& a) { return !named(a.name, all_); });
+    for (PolyArray& a : arrays)
+      if (a.holds<float>() && named(a.name, all_)->holds<double>()) {
+        a.data = std::vector<double>{};
+        a.make = [of_float = a.make]() -> PolyValues {
+          const auto values = std::get<std::vector<float>>(of_float());
+          return std::vector<double>(values.begin(), values.end());
+        };
+      }
+  }
+
+ private:
+  static const PolyArray* named(const std::string& name, const std::vector<PolyArray>& arrays) {
+    const auto at = std::find_if(arrays.begin(), arrays.end(), [&](const PolyArray& a) { return a.name == name; });
+    return at == arrays.end() ? nullptr : &*at;
+  }
+
+  std::vector<PolyArray> all_;
+  bool first_ = true;
+};
 
 /// Opens a file of one frame.
 HdfFile open_frame(const fs::path& path) {
@@ -231,9 +280,17 @@ int assemble_vtkhdf(const fs::path& folder, const std::string& prefix, const fs:
   const std::vector<fs::path> frames = list_frames(folder, prefix);
   if (frames.empty())
     return 0;
+  CommonArrays of_points, of_cells;
+  for (const fs::path& path : frames) {
+    const auto file = std::make_shared<const HdfFile>(open_frame(path));
+    of_points.meet(list_arrays(file, root + "/PointData"));
+    of_cells.meet(list_arrays(file, root + "/CellData"));
+  }
   VtkHdfWriter writer(out);
   for (const fs::path& path : frames) {
     TimedPolyData frame = look_into_frame(path);
+    of_points.keep(frame.data.point_arrays);
+    of_cells.keep(frame.data.cell_arrays);
     writer.append(std::move(frame.data), frame.time);
   }
   writer.commit();

@@ -12,6 +12,16 @@ namespace {
 
 constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
+const char* type_name(double) {
+  return "Float64";
+}
+const char* type_name(float) {
+  return "Float32";
+}
+const char* type_name(std::int64_t) {
+  return "Int64";
+}
+
 /// The XML part names each array and where it begins in the block of raw bytes behind it.
 struct Appended {
   std::string xml;
@@ -20,7 +30,7 @@ struct Appended {
   template <class T>
   void array(const std::string& name, int components, const std::vector<T>& values) {
     xml += fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)",
-                       std::is_same_v<T, double> ? "Float64" : "Int64", name, components, bytes.size());
+                       type_name(T{}), name, components, bytes.size());
     xml += '\n';
     const std::uint64_t size = values.size() * sizeof(T);
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size);

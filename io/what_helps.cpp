@@ -15,6 +15,7 @@ struct Setting {
 constexpr Setting settings[] = {
     {"solver.stress_update = \"usavg\"", [](const Scene& s) { return s.stress_update == StressUpdate::usavg; }},
     {"solver.shape = \"ugimp\"", [](const Scene& s) { return s.shape == ShapeFunction::ugimp; }},
+    {"solver.transfer = \"flip\"", [](const Scene& s) { return s.transfer == Transfer::flip; }},
     {"solver.transfer = \"fmpm\" or \"xpic\"",
      [](const Scene& s) { return s.transfer == Transfer::fmpm || s.transfer == Transfer::xpic; }},
     {"law = \"neo_hookean\"",

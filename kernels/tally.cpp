@@ -32,7 +32,7 @@ struct Sums {
 /// Of one chunk of particles.
 struct ChunkSums {
   Sums sums;
-  double least_J, largest_J;
+  double least_J, largest_J, stretch;
 };
 
 /// The same, lane by lane.
@@ -40,18 +40,19 @@ struct LaneSums {
   static constexpr int lanes = exec::lanes;
   double kinetic[lanes] = {}, strain[lanes] = {}, px[lanes] = {}, py[lanes] = {}, angular[lanes] = {};
   double scale[lanes] = {}, angular_scale[lanes] = {};
-  double least_J[lanes], largest_J[lanes] = {};
+  double least_J[lanes], largest_J[lanes] = {}, stretch[lanes] = {};
 
   RIVEN_FN LaneSums() {
     for (double& J : least_J)
       J = std::numeric_limits<double>::infinity();
   }
   RIVEN_FN ChunkSums sum() const {
-    ChunkSums t{{}, least_J[0], largest_J[0]};
+    ChunkSums t{{}, least_J[0], largest_J[0], stretch[0]};
     for (int k = 0; k < lanes; ++k) {
       t.sums += {kinetic[k], strain[k], px[k], py[k], angular[k], scale[k], angular_scale[k]};
       t.least_J = std::min(t.least_J, least_J[k]);
       t.largest_J = std::max(t.largest_J, largest_J[k]);
+      t.stretch = std::max(t.stretch, stretch[k]);
     }
     return t;
   }
@@ -86,6 +87,10 @@ RIVEN_INLINE void add_up(const ParticleReads<Real>& p, const LawOf& law_of, long
     t.strain[k] += m * law_of(i).energy(state);
     t.least_J[k] = J < t.least_J[k] ? J : t.least_J[k];
     t.largest_J[k] = J > t.largest_J[k] ? J : t.largest_J[k];
+    double stretch = J;
+    if constexpr (Law::keeps_F)
+      stretch = principal_stretch(state.F);
+    t.stretch[k] = stretch > t.stretch[k] ? stretch : t.stretch[k];
     t.px[k] += m * vx;
     t.py[k] += m * vy;
     t.angular[k] += m * (x * vy - y * vx);
@@ -111,7 +116,7 @@ exec::Array<ChunkSums> sum_particles(const exec::Space& space, const Particles<R
   return part;
 }
 
-/// Adds up what chunks hold, in their order; of equal det F the first chunk's counts.
+/// Adds up what chunks hold, in their order; of equal figures the first chunk's counts.
 Sums total_of(const exec::Array<ChunkSums>& part, DetF& J) {
   Sums total;
   J = {};
@@ -124,6 +129,10 @@ Sums total_of(const exec::Array<ChunkSums>& part, DetF& J) {
     if (c == 0 || part[c].largest_J > J.largest) {
       J.largest = part[c].largest_J;
       J.largest_chunk = c;
+    }
+    if (c == 0 || part[c].stretch > J.stretch) {
+      J.stretch = part[c].stretch;
+      J.stretch_chunk = c;
     }
   }
   return total;

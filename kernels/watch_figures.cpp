@@ -36,6 +36,20 @@ Vec2 place_of_det_F(const Particles<Real, 2>& p, long chunk, double value) {
   return place_of(p, nearest);
 }
 
+/// Where the particle of a chunk is that is stretched most.
+template <class Real>
+Vec2 place_of_stretch(const Particles<Real, 2>& p, long chunk) {
+  const long first = chunk * exec::chunk, end = std::min<long>(p.count(), first + exec::chunk);
+  const auto of = [&](long i) {
+    return p.F[0].empty() ? det_F(p, i) : principal_stretch(Mat2<double>{p.F[0][i], p.F[1][i], p.F[2][i], p.F[3][i]});
+  };
+  long most = first;
+  for (long i = first; i < end; ++i)
+    if (of(i) > of(most))
+      most = i;
+  return place_of(p, most);
+}
+
 /// The power of time with which the work of loads that begin as 1 - cos grows at first: their force as the square, the
 /// way as the fourth. It lags behind the energy by so many times what that of a load at once does.
 constexpr double power_of_work = 6;
@@ -93,9 +107,11 @@ void watch_figures(SimulationOf<Real>& m) {
   look(Watched::energy, std::abs(s.ledger.energy.relative_error()), no_place,
        power_of_work * work_lag(m.plan, s.clock.step));
   look(Watched::momentum, s.ledger.momentum.error(), no_place);
+  look(Watched::angular_momentum, s.ledger.momentum.angular_error(), no_place);
   const DetF& J = s.watch.det_F;
   look(Watched::compression, 1 / J.least, [&] { return place_of_det_F(s.particles, J.least_chunk, J.least); });
   look(Watched::expansion, J.largest, [&] { return place_of_det_F(s.particles, J.largest_chunk, J.largest); });
+  look(Watched::stretch, J.stretch, [&] { return place_of_stretch(s.particles, J.stretch_chunk); });
   look(Watched::velocity_difference, s.watch.velocity_difference, no_place);
   if (m.plan.contact) {
     const Overlap most = penetration(s.cracks);

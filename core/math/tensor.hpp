@@ -37,6 +37,15 @@ RIVEN_INLINE Real det(const Mat2<Real>& a) {
   return a.xx * a.yy - a.xy * a.yx;
 }
 
+/// Largest principal stretch of a deformation gradient: its square is the larger eigenvalue of F^T F, whose trace is
+/// F : F and whose determinant det(F)^2.
+template <class Real>
+RIVEN_INLINE Real principal_stretch(const Mat2<Real>& F) {
+  const Real trace = F.xx * F.xx + F.xy * F.xy + F.yx * F.yx + F.yy * F.yy, J = det(F);
+  const Real square = trace * trace - Real(4) * J * J;
+  return std::sqrt(Real(0.5) * (trace + std::sqrt(square > 0 ? square : Real(0))));
+}
+
 /// exp(A) - I for a small A = dt grad v, to fourth order in |A|. With s = tr A / 2 and q = s^2 - det A,
 ///   exp(A) = e^s [ cosh(sqrt q) I + sinh(sqrt q)/sqrt q (A - s I) ]      (Cayley-Hamilton)
 /// Keeps det and rotations to O(|A|^5), where I + A stretches a rotating body by |A|^2 / 2 in every step. Without the

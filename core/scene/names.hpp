@@ -69,8 +69,10 @@ RIVEN_NAMES(Probe::Kind, {{Probe::Kind::crack_opening, "crack_opening"},
                           {Probe::Kind::displacement_error, "displacement_error"}})
 RIVEN_NAMES(Watched, {{Watched::energy, "energy"},
                       {Watched::momentum, "momentum"},
+                      {Watched::angular_momentum, "angular_momentum"},
                       {Watched::compression, "compression"},
                       {Watched::expansion, "expansion"},
+                      {Watched::stretch, "stretch"},
                       {Watched::penetration, "penetration"},
                       {Watched::velocity_difference, "velocity_difference"}})
 RIVEN_NAMES(exec::Kind, {{exec::Kind::serial, "serial"},

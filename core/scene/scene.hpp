@@ -189,22 +189,25 @@ struct Output {
   int frames = 20;           ///< frames after the first, evenly over the run
   double history_every = 0;  ///< s; 0 means 1/250 of the run
   Sidecar sidecar = Sidecar::none;
-  std::vector<std::string> fields;  ///< optional extra particle fields: "fringe"
-  double fringe_constant = 0;       ///< 1/Pa (Nairn 2003, eq. 23)
-  double checkpoint_every = 600;    ///< s of wall time between checkpoints; 0: none but when the run is interrupted
-  int checkpoint_steps = 0;         ///< steps between checkpoints, too; 0: not by steps
+  Precision precision = Precision::as_float;  ///< of the particles' fields, though not of their positions
+  std::vector<std::string> fields;            ///< optional extra particle fields: "fringe"
+  double fringe_constant = 0;                 ///< 1/Pa (Nairn 2003, eq. 23)
+  double checkpoint_every = 600;  ///< s of wall time between checkpoints; 0: none but when the run is interrupted
+  int checkpoint_steps = 0;       ///< steps between checkpoints, too; 0: not by steps
 };
 
 /// Figures by which a run is judged while it goes on, whenever stock is taken.
 enum class Watched {
   energy,               ///< made or lost by nothing that accounts for it, over the largest energy so far
   momentum,             ///< error of the momentum over the largest so far
+  angular_momentum,     ///< the same of the angular momentum, over the largest sum of m |x| |v| so far
   compression,          ///< 1 / least det F
   expansion,            ///< largest det F
+  stretch,              ///< largest principal stretch
   penetration,          ///< overlap of faces, cells
   velocity_difference,  ///< of a particle and the grid where it is, m/s
 };
-inline constexpr int watched_figures = 6;
+inline constexpr int watched_figures = 8;
 
 /// A limit for each; infinite where there is none.
 using Thresholds = std::array<double, watched_figures>;
@@ -212,8 +215,8 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// Where a run is suspect, where it has gone wrong, and what it does then.
 struct Limits {
-  Thresholds warn{0.02, 1e-9, 5, 5, 0.25, no_limit};
-  Thresholds stop{no_limit, no_limit, no_limit, no_limit, no_limit, no_limit};
+  Thresholds warn{0.02, 1e-9, 0.05, 5, 5, 1.3, 0.25, no_limit};
+  Thresholds stop{no_limit, no_limit, no_limit, no_limit, no_limit, no_limit, no_limit, no_limit};
 
   /// Largest (kinetic + strain + sinks - external work) over the largest energy so far; else as the plan says.
   std::optional<double> energy_growth;

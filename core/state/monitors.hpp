@@ -37,9 +37,13 @@ inline constexpr WatchedText watched_texts[watched_figures] = {
      "a smaller solver.cfl; solver.stress_update = \"usavg\""},
     {"momentum comes or goes", "of the largest momentum",
      "nothing in a scene should do this: report it, with the scene"},
+    {"angular momentum comes or goes", "of the largest",
+     "solver.transfer = \"flip\": PIC, XPIC and FMPM wear off how a body spins; smaller cells"},
     {"a particle is compressed far (1 / det F)", "",
      "smaller cells or a smaller solver.cfl; law = \"neo_hookean\" for large strains"},
     {"a particle is stretched far (det F)", "", "growth or a crack where the body tears; smaller cells"},
+    {"a particle is stretched far: shape functions do not stretch with it, and a whole body may tear", "",
+     "solver.transfer = \"fmpm\" or \"xpic\"; a larger particles_per_cell"},
     {"the faces of a crack overlap", "cells",
      "contact.detection = \"displacement\"; a smaller solver.cfl; smaller cells"},
     {"a particle's velocity is far from the grid's", "m/s", "solver.transfer = \"fmpm\" or \"xpic\"; smaller cells"}};

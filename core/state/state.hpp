@@ -28,10 +28,11 @@ struct LawTables {
   exec::Array<AnyElastic<Real>> any;
 };
 
-/// Least and largest det F when stock was taken last, and the chunks of particles (exec::chunk) that hold them.
+/// Least and largest det F and largest principal stretch when stock was taken last, and the chunks of particles
+/// (exec::chunk) that hold them. Where F is not kept, det F stands for the stretch.
 struct DetF {
-  double least = 1, largest = 1;
-  long least_chunk = 0, largest_chunk = 0;
+  double least = 1, largest = 1, stretch = 1;
+  long least_chunk = 0, largest_chunk = 0, stretch_chunk = 0;
 };
 
 /// What the particle kernels saw in the last step, per tile and in all.

@@ -22,7 +22,7 @@ import numpy as np
 
 
 class Frame(dict):
-    """Arrays by name: "points" (n, 3), every point array, and cell arrays as "cell:<name>".
+    """Arrays by name: "points" (n, 3), every point array, and cell arrays as "cell:<name>"; floats in double.
 
     `time` in s; `units` by array name; `cells`, a list of arrays of point numbers, one for each line
     (empty where the cells are vertices).
@@ -101,7 +101,8 @@ class Results:
             part = int(steps["PartOffsets"][step])
 
             def rows(dataset, first, count):
-                return dataset[int(first) : int(first) + int(count)]
+                values = dataset[int(first) : int(first) + int(count)]
+                return values.astype(float) if values.dtype == np.float32 else values
 
             points = root["NumberOfPoints"][part]
             out["points"] = rows(root["Points"], steps["PointOffsets"][step], points)

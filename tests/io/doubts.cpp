@@ -116,7 +116,7 @@ TEST(Doubts, NameTractionsOnObliqueEdgesAndInHoles) {
   expect_doubt(s, "load pull", "in a hole of body plate");
   s.loads[0].region = Rectangle{{0, 35e-3}, {40e-3, 40e-3}};
   EXPECT_TRUE(doubts(s).empty());
-  s.bodies[0].region = Polygon{{{0, 0}, {40e-3, 0}, {40e-3, 36e-3}, {0, 40e-3}}};
+  s.bodies[0].region = Polygon{{{0, 0}, {40e-3, 0}, {40e-3, 30e-3}, {0, 40e-3}}};
   expect_doubt(s, "load pull", "projection");
 }
 

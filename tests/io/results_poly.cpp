@@ -51,6 +51,23 @@ TEST(ResultsPoly, ParticlesComeInTheOrderOfTheirIds) {
   }
 }
 
+TEST(ResultsPoly, FieldsAreSingleUnlessSaidOtherwiseButPositionsAreNot) {
+  const auto p = sample::particles(1);
+  Scene scene = sample::scene();
+  const PolyData exact = particle_frame(p, scene);
+  scene.output.precision = Output{}.precision;
+  const PolyData d = particle_frame(p, scene);
+  EXPECT_EQ(d.points, exact.points);
+  for (const char* name : {"size", "velocity", "displacement", "stress", "von_mises", "J", "deformation_gradient"}) {
+    const auto& values = std::get<std::vector<float>>(find(d.point_arrays, name).data);
+    const std::vector<double>& of_double = reals(exact, name);
+    ASSERT_EQ(values.size(), of_double.size());
+    for (std::size_t k = 0; k < values.size(); ++k)
+      EXPECT_EQ(values[k], static_cast<float>(of_double[k])) << name << " " << k;
+  }
+  EXPECT_EQ(integers(d, "id"), integers(exact, "id"));
+}
+
 TEST(ResultsPoly, StressIsCauchyWithItsOutOfPlanePart) {
   const Scene s = sample::scene();
   const auto p = sample::particles(1);

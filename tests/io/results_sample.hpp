@@ -33,6 +33,7 @@ inline Scene scene() {
   s.bodies[0].particles_per_cell = 2;
   s.cracks.resize(2);
   s.output.sidecar = Sidecar::vtp;
+  s.output.precision = Precision::as_double;
   s.output.fields = {"fringe"};
   s.output.fringe_constant = fringe_constant;
   return s;

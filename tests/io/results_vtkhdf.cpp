@@ -154,6 +154,40 @@ TEST(ResultsVtkhdf, JoinedFramesEqualTheFrames) {
             (Integers{9, 10, 11, 12}));
 }
 
+TEST(ResultsVtkhdf, JoinedFramesHaveWhatAllFramesHaveInTheirBestPrecision) {
+  const sample::Folder folder;
+  Scene scene = sample::scene();
+  scene.output.precision = Precision::as_float;
+  scene.output.fields.clear();
+  std::vector<double> times;
+  for (const bool later : {false, true}) {  // a run that goes on with other output
+    if (later) {
+      scene.output.precision = Precision::as_double;
+      scene.output.fields = {"fringe"};
+      scene.output.fringe_constant = 1e-7;
+    }
+    FrameWriter writer(folder.path(), scene, times);
+    writer.write(0.5 * static_cast<double>(times.size()), sample::particles(0.25), sample::cracks(0.25));
+    times = writer.times();
+    writer.finish();
+  }
+  const auto frames = list_frames(folder / "frames", "particles");
+  ASSERT_EQ(frames.size(), 2u);
+  const auto reals = [](const HdfFile& f, const char* name) {
+    return f.read<double>(std::string("/VTKHDF/PointData/") + name);
+  };
+  std::vector<double> expected;
+  for (const auto& path : frames) {
+    const HdfFile frame = HdfFile::open(path);
+    const std::vector<double> stress = reals(frame, "stress");
+    expected.insert(expected.end(), stress.begin(), stress.end());
+  }
+  const HdfFile joined = HdfFile::open(folder / "particles.vtkhdf");
+  EXPECT_FALSE(joined.has("/VTKHDF/PointData/fringe"));
+  EXPECT_FALSE(joined.is_float("/VTKHDF/PointData/stress"));
+  EXPECT_EQ(reals(joined, "stress"), expected);
+}
+
 TEST(ResultsVtkhdf, ARunThatBeginsAnewRemovesOldFramesAndAResumedOneKeepsThem) {
   const sample::Folder folder;
   const Scene scene = sample::scene();

@@ -123,6 +123,7 @@ over = "50 mm^2"
 frames = 7
 history_every = "1 us"
 sidecar = "vtp"
+precision = "double"
 fields = ["fringe"]
 fringe_constant = "0.0889 1/MPa"
 [limits]
@@ -189,10 +190,11 @@ penetration = 0.5
   EXPECT_EQ(s.output.frames, 7);
   EXPECT_DOUBLE_EQ(s.output.history_every, 1e-6);
   EXPECT_EQ(s.output.sidecar, Sidecar::vtp);
+  EXPECT_EQ(s.output.precision, Precision::as_double);
   EXPECT_DOUBLE_EQ(s.output.fringe_constant, 0.0889e-6);
   EXPECT_EQ(s.limits.energy_growth, 0.1);
-  EXPECT_EQ(s.limits.warn, (Thresholds{0.02, 1e-9, 2, 5, 0.25, 5}));
-  EXPECT_EQ(s.limits.stop, (Thresholds{no_limit, no_limit, no_limit, no_limit, 0.5, no_limit}));
+  EXPECT_EQ(s.limits.warn, (Thresholds{0.02, 1e-9, 0.05, 2, 5, 1.3, 0.25, 5}));
+  EXPECT_EQ(s.limits.stop, (Thresholds{no_limit, no_limit, no_limit, no_limit, no_limit, no_limit, 0.5, no_limit}));
   EXPECT_EQ(s.limits.retries, 3);
   EXPECT_EQ(s.limits.retry_cfl, 0.8);
   EXPECT_EQ(s.output.checkpoint_steps, 1000) << "to go back to";

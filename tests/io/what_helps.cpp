@@ -10,13 +10,17 @@ namespace {
 TEST(WhatHelps, LeavesOutWhatTheSceneHasAlready) {
   Scene s;
   s.stress_update = StressUpdate::usl;
-  s.transfer = Transfer::flip;
+  s.transfer = Transfer::pic;
   s.contact_rules.detection = ContactDetection::volume;
   s.materials = {{"steel", LawKind::neo_hookean, 200e9, 0.3, 7850}, {"resin", LawKind::linear_elastic, 3e9, 0.3, 1200}};
   for (const auto& text : watched_texts)
     EXPECT_EQ(what_helps(text.advice, s), text.advice);
   EXPECT_EQ(what_helps("", s), "");
 
+  s.transfer = Transfer::flip;
+  EXPECT_EQ(what_helps(text_of(Watched::angular_momentum).advice, s), "smaller cells");
+  s.transfer = Transfer::fmpm;
+  EXPECT_EQ(what_helps(text_of(Watched::stretch).advice, s), "a larger particles_per_cell");
   s.stress_update = StressUpdate::usavg;
   EXPECT_EQ(what_helps(text_of(Watched::energy).advice, s), "a smaller solver.cfl");
   s.materials.pop_back();

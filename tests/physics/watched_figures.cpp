@@ -46,6 +46,8 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     };
     set_J(17, 0.25);
     set_J(40, 1.5);
+    if (p.J.empty())
+      p.F[1][30] = 2;  // simple shear, of principal stretch 1 + sqrt 2
     Cracks& c = m.state.cracks;
     c.upper[1].y -= 0.1 * h;  // of the crack that contact keeps shut: above has come below
     c.upper[2].y += 0.4 * h;  // open
@@ -54,6 +56,8 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     m.state.watch.velocity_difference = 3;
     m.state.ledger.momentum.impulse.x = 7;
     m.state.ledger.momentum.scale = 70;
+    m.state.ledger.momentum.torque_impulse = 7;
+    m.state.ledger.momentum.angular_scale = 35;
     m.state.ledger.energy.largest = 5;
     m.state.ledger.energy.external_work = m.state.ledger.energy.total() - m.state.ledger.energy.first + 0.1;
     watch_figures(m);
@@ -65,6 +69,9 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     EXPECT_EQ(figure(m, Watched::penetration).place, c.plane[1]);
     EXPECT_EQ(figure(m, Watched::velocity_difference).value, 3);
     EXPECT_NEAR(figure(m, Watched::momentum).value, 0.1, 1e-12);
+    EXPECT_NEAR(figure(m, Watched::angular_momentum).value, 0.2, 1e-12);
+    EXPECT_NEAR(figure(m, Watched::stretch).value, p.J.empty() ? 1 + std::sqrt(2) : 1.5, 1e-12);
+    EXPECT_EQ(figure(m, Watched::stretch).place, place(m, p.J.empty() ? 30 : 40));
     EXPECT_NEAR(figure(m, Watched::energy).value, 0.02, 1e-12);
   }
 }
