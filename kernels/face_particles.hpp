@@ -73,7 +73,8 @@ class FaceParticles {
         : s(state), law(laws<Law>(state)), reads(::riven::reads(s.particles)) {}
   };
 
-  FaceParticles() {}  // sets no numbers: to zero them would cost as much as to fill them
+  /// Sets no numbers: to zero them would cost as much as to fill them.
+  FaceParticles() {}  // NOLINT(modernize-use-equals-default)
 
   /// Takes `count` particles from `first` on, up to as many as there are lanes; those behind them have no area. Without
   /// energies only the first values are found (face_cheap): the others are dear.

@@ -245,6 +245,7 @@ void grow_cracks(SimulationOf<Real>& m) {
   exec::PartsOnHost parts;
   bring_near(m.space, s, places, 0.5 * m.scene.fracture.contour + around_tip, parts);
   std::vector<Rectangle> boxes;
+  boxes.reserve(static_cast<size_t>(s.cracks.count()));
   for (int c = 0; c < s.cracks.count(); ++c)
     boxes.push_back(box_of(s.cracks, c));
   for (Tip* tip : due) {
