@@ -49,8 +49,9 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     if (p.J.empty())
       p.F[1][30] = 2;  // simple shear, of principal stretch 1 + sqrt 2
     Cracks& c = m.state.cracks;
-    c.upper[1].y -= 0.1 * h;  // of the crack that contact keeps shut: above has come below
-    c.upper[2].y += 0.4 * h;  // open
+    c.upper[1].y -= 0.1 * h;            // of the crack that contact keeps shut: above has come below
+    c.upper[2].y += 0.4 * h;            // open
+    c.upper[3] += h * Vec2{1.2, -0.3};  // slid away from what it lay on
     c.upper[c.start[1] + 1].y -= 0.7 * h;
     tally(space, m.plan, m.state);
     m.state.watch.velocity_difference = 3;
