@@ -18,12 +18,16 @@ namespace {
 
 /// Points that one task takes.
 constexpr long points_of_task = 32;
+/// Of the mass of a full cell, what a surface must see to bear anything. Along a face it sees half of it, at a corner a
+/// quarter, half a cell off the solid this much. What lies farther off, as where a crack has cut a body whose parts
+/// draw apart, would set next to no mass in motion with more energy than the whole body has.
+constexpr double least_seen = 0.05;
 
 /// Spreads the force on the upper surface of a point, and its opposite on the lower one; false where one of them finds
 /// no mass.
 template <class Shape, class Real>
 RIVEN_FN bool spread(const Extrapolation<Shape, Real>& from, const CrackView& cracks, long k, Vec2 force, double least,
-                     PointForces& to) {
+                     double seen, PointForces& to) {
   const Vec2 x[2] = {cracks.upper[k], cracks.lower[k]};
   bool found[2] = {false, false};
   from.each_surface(
@@ -40,7 +44,7 @@ RIVEN_FN bool spread(const Extrapolation<Shape, Real>& from, const CrackView& cr
             mass[n] = at >= 0 && m > least ? m : 0;
             from.add(sums, around, i, j, from.q + 4L * s.slot[n], mass[n]);
           }
-        found[side] = sums.near > 0;
+        found[side] = sums.near > seen;
         if (!found[side])
           return;
         const MassAround around_point(sums);
@@ -58,6 +62,13 @@ RIVEN_FN bool spread(const Extrapolation<Shape, Real>& from, const CrackView& cr
   return found[0] && found[1];
 }
 
+/// kg, of a full cell of the lightest body.
+template <class Real>
+double cell_mass(const State<Real, 2>& s) {
+  const double h = s.grid.lattice.h;
+  return h * h / *std::max_element(s.specific_area.begin(), s.specific_area.end());
+}
+
 }  // namespace
 
 template <class Shape, class Real>
@@ -66,13 +77,13 @@ void apply_tractions(const exec::Space& space, ScatterKind kind, State<Real, 2>&
   const Extrapolation<Shape, Real> from(s.grid, false, s.cracks, s.fields, s.clock.dt);
   const CrackView cracks = crack_view(s.cracks);
   const long points = cracks.points;
-  const double least = mass_cutoff(s);
+  const double least = mass_cutoff(s), seen = least_seen * cell_mass(s);
   forces.resize(points);
   const Vec2* on_face = exec::data(on_faces);
   PointForces* const to = exec::data_to_fill(forces);
   exec::launch_some(space, points, points_of_task, [=] RIVEN_KERNEL(long k) {
     const Vec2 force = on_face[k];
-    to[k].applied = (force.x != 0 || force.y != 0) && spread(from, cracks, k, force, least, to[k]);
+    to[k].applied = (force.x != 0 || force.y != 0) && spread(from, cracks, k, force, least, seen, to[k]);
   });
   exec::scatter_for(space, "tractions", kind == ScatterKind::ordered, points,
                     [=, q = exec::data(s.grid.q)] RIVEN_KERNEL(long k) {

@@ -151,6 +151,7 @@ class Growth {
     book(segment);
     const double on = way_before_solid(s_, to, way, beyond, particle_);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to + on * way, first(to) + on * way);
+    end_bears_nothing(s_.cracks, tip_.crack, tip_.last);
     close(tip_, CrackEvent::Kind::exit, to, -1);
   }
 

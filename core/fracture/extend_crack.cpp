@@ -36,6 +36,14 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
   return static_cast<int>(at);
 }
 
+void end_bears_nothing(Cracks& cracks, int crack, bool last) {
+  if (cracks.bearing.empty())
+    return;
+  cracks.bearing[cracks.end_point(crack, last)] = {};
+  Vec2& next = cracks.bearing[cracks.next_to_end(crack, last)];
+  (last ? next.y : next.x) = 0;
+}
+
 Rectangle box_of(const Cracks& cracks, int crack) {
   const int first = cracks.end_point(crack, false), last = cracks.end_point(crack, true);
   Rectangle box{cracks.plane[first], cracks.plane[first]};

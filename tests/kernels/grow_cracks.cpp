@@ -155,6 +155,34 @@ TEST(GrowCracks, LeaveIntoAHoleAndAtASlant) {
             true);
 }
 
+/// A pressure pushes on what lies in the solid: what is drawn on beyond it finds nodes of next to no mass, whose work
+/// would be out of all proportion.
+TEST(GrowCracks, BearNothingBeyondTheSolid) {
+  for (const bool last : {true, false}) {
+    Scene scene = plate({crack("edge", {{18, 8.1}, {7, 8.1}})}, 25);
+    if (last)
+      std::reverse(scene.cracks[0].points.begin(), scene.cracks[0].points.end());
+    scene.cracks[0].traction.emplace().pressure = TimeFunction{1, {}, ""};
+    Driven run(scene, [last](Tip& t) {
+      if (t.last == last)
+        open(t);
+      else
+        t.drive_I = t.J = t.release = 0;
+    });
+    const auto grows = [last](const Tip& t) { return t.last == last && t.open; };
+    for (int n = 0; n < 3000 && std::any_of(run.m.state.tips.begin(), run.m.state.tips.end(), grows); ++n)
+      run.steps(1);
+    const Cracks& c = run.m.state.cracks;
+    const double outside = c.plane[c.end_point(0, last)].x;
+    EXPECT_GT(outside, 25);
+    for (int k = 0; k + 1 < c.points(); ++k) {
+      const bool beyond = std::max(c.plane[k].x, c.plane[k + 1].x) == outside;
+      EXPECT_EQ(c.bearing[k].y, beyond ? 0 : scene.thickness) << k;
+      EXPECT_EQ(c.bearing[k + 1].x, beyond ? 0 : scene.thickness) << k;
+    }
+  }
+}
+
 /// Another body stands 1 m, two particles, beyond the edge; and the far side of a slot does.
 TEST(GrowCracks, LeaveWithoutCuttingWhatIsBeyond) {
   for (const bool slot : {false, true}) {

@@ -143,6 +143,36 @@ constexpr double MPa = 1e6, half_length = 12e-3;
 /// in the middle of a strip (H. Tada, P.C. Paris and G.R. Irwin, The Stress Analysis of Cracks Handbook, 3rd ed., 2.1;
 /// a uniform stress that is added to make faces free of it opens nothing). 4 % is half a cell on the length of the
 /// crack: the tip is not known better than that.
+/// A crack grows under its pressure until it has cut a block that flies and spins; the halves draw apart, and their
+/// corners leave points of the faces behind.
+TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
+  Scene s = empty_scene(1. / 20, {{-0.5, -0.5}, {1.5, 1.5}});
+  s.bodies = {body("block", Rectangle{{0, 0}, {1, 1}})};
+  s.bodies[0].velocity = {0.2, 0.1};
+  s.bodies[0].spin = 1.2;
+  s.plane = Plane::stress;
+  s.cracks = {crack("crack", {{0.25, 0.45}, {0.7, 0.6}})};
+  s.cracks[0].traction = TractionSettings{};
+  s.cracks[0].traction->pressure = {2e3, [](double t) { return std::min(t / 0.025, 1.0); }, ""};
+  s.contact.law = ContactLaw::frictionless;
+  s.fracture.contour = 6;
+  s.growth = GrowthRule{};
+  s.growth->toughness = 1.4e3;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  double worst = 0;
+  while (m.state.clock.time < 0.16) {
+    m.step();
+    m.take_stock();
+    worst = std::max(worst, std::abs(m.state.ledger.energy.relative_error()));
+  }
+  int exits = 0;
+  for (const CrackEvent& e : m.state.events)
+    exits += e.kind == CrackEvent::Kind::exit;
+  EXPECT_EQ(exits, 2);
+  EXPECT_LT(worst, 0.005);
+}
+
 TEST(Pressure, OpensACrackToAnEllipse) {
   for (const Plane plane : {Plane::strain, Plane::stress}) {
     Scene s = plate(12, 60);
