@@ -62,7 +62,8 @@ Vec2 side_of(Load::Edge edge) {
   return {0, 1};
 }
 
-/// Cosines between the side that a traction acts on and the edges in its region, out of the solid.
+/// Does an edge in the region of a traction face its side as wanted? By the cosine between the side and the normal out
+/// of the solid, which is within the edge (`solid` = 1) or around it (-1).
 template <class Wanted>
 bool acts_on(const Load& load, const Region& region, double solid, const Wanted& wanted) {
   const std::vector<EdgePoint> edge = edge_of(region);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <utility>
 
 #include "core/error.hpp"
+#include "io/common_arrays.hpp"
 
 namespace riven {
 namespace fs = std::filesystem;
@@ -176,45 +176,6 @@ std::vector<PolyArray> list_arrays(const std::shared_ptr<const HdfFile>& file, c
   }
   return arrays;
 }
-
-/// Arrays of a group that all frames have, and as what: double where some are float and others not. A run that went on
-/// may have had other fields, or their precision, from then on.
-class CommonArrays {
- public:
-  void meet(std::vector<PolyArray> arrays) {
-    if (std::exchange(first_, false))
-      all_ = std::move(arrays);
-    else
-      std::erase_if(all_, [&](PolyArray& mine) {
-        const PolyArray* other = named(mine.name, arrays);
-        if (other && mine.holds<float>() && other->holds<double>())
-          mine.data = std::vector<double>{};
-        return !other || other->components != mine.components ||
-               other->holds<std::int64_t>() != mine.holds<std::int64_t>();
-      });
-  }
-  /// Keeps of the arrays what is common, as what is common.
-  void keep(std::vector<PolyArray>& arrays) const {
-    std::erase_if(arrays, [&](const PolyArray& a) { return !named(a.name, all_); });
-    for (PolyArray& a : arrays)
-      if (a.holds<float>() && named(a.name, all_)->holds<double>()) {
-        a.data = std::vector<double>{};
-        a.make = [of_float = a.make]() -> PolyValues {
-          const auto values = std::get<std::vector<float>>(of_float());
-          return std::vector<double>(values.begin(), values.end());
-        };
-      }
-  }
-
- private:
-  static const PolyArray* named(const std::string& name, const std::vector<PolyArray>& arrays) {
-    const auto at = std::find_if(arrays.begin(), arrays.end(), [&](const PolyArray& a) { return a.name == name; });
-    return at == arrays.end() ? nullptr : &*at;
-  }
-
-  std::vector<PolyArray> all_;
-  bool first_ = true;
-};
 
 /// Opens a file of one frame.
 HdfFile open_frame(const fs::path& path) {

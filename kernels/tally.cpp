@@ -117,22 +117,22 @@ exec::Array<ChunkSums> sum_particles(const exec::Space& space, const Particles<R
 }
 
 /// Adds up what chunks hold, in their order; of equal figures the first chunk's counts.
-Sums total_of(const exec::Array<ChunkSums>& part, DetF& J) {
+Sums total_of(const exec::Array<ChunkSums>& part, Deformation& all) {
   Sums total;
-  J = {};
+  all = {};
   for (long c = 0; c < part.size(); ++c) {
     total += part[c].sums;
-    if (c == 0 || part[c].least_J < J.least) {
-      J.least = part[c].least_J;
-      J.least_chunk = c;
+    if (c == 0 || part[c].least_J < all.least_J) {
+      all.least_J = part[c].least_J;
+      all.least_J_chunk = c;
     }
-    if (c == 0 || part[c].largest_J > J.largest) {
-      J.largest = part[c].largest_J;
-      J.largest_chunk = c;
+    if (c == 0 || part[c].largest_J > all.largest_J) {
+      all.largest_J = part[c].largest_J;
+      all.largest_J_chunk = c;
     }
-    if (c == 0 || part[c].stretch > J.stretch) {
-      J.stretch = part[c].stretch;
-      J.stretch_chunk = c;
+    if (c == 0 || part[c].stretch > all.stretch) {
+      all.stretch = part[c].stretch;
+      all.stretch_chunk = c;
     }
   }
   return total;
@@ -150,7 +150,7 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
       return sum_particles<Law>(space, p, OneLaw<Law>{of.table});
     return sum_particles<Law>(space, p, LawOfEach<Law>{of});
   });
-  const Sums t = total_of(part, s.watch.det_F);
+  const Sums t = total_of(part, s.watch.deformation);
   Energy& e = s.ledger.energy;
   Momentum& b = s.ledger.momentum;
   e.kinetic = t.kinetic;

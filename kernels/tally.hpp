@@ -8,7 +8,7 @@ namespace riven {
 inline namespace RIVEN_SIDE {
 
 /// Brings the ledger's present values up to date: kinetic, strain and cohesive energy, momentum and angular momentum
-/// about the origin, and their scales. On the way, StepWatch::det_F.
+/// about the origin, and their scales. On the way, StepWatch::deformation.
 template <class Real>
 void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 

@@ -110,10 +110,10 @@ void watch_figures(SimulationOf<Real>& m) {
        power_of_work * work_lag(m.plan, s.clock.step));
   look(Watched::momentum, s.ledger.momentum.error(), no_place);
   look(Watched::angular_momentum, s.ledger.momentum.angular_error(), no_place);
-  const DetF& J = s.watch.det_F;
-  look(Watched::compression, 1 / J.least, [&] { return place_of_det_F(s.particles, J.least_chunk, J.least); });
-  look(Watched::expansion, J.largest, [&] { return place_of_det_F(s.particles, J.largest_chunk, J.largest); });
-  look(Watched::stretch, J.stretch, [&] { return place_of_stretch(s.particles, J.stretch_chunk); });
+  const Deformation& d = s.watch.deformation;
+  look(Watched::compression, 1 / d.least_J, [&] { return place_of_det_F(s.particles, d.least_J_chunk, d.least_J); });
+  look(Watched::expansion, d.largest_J, [&] { return place_of_det_F(s.particles, d.largest_J_chunk, d.largest_J); });
+  look(Watched::stretch, d.stretch, [&] { return place_of_stretch(s.particles, d.stretch_chunk); });
   look(Watched::velocity_difference, s.watch.velocity_difference, no_place);
   if (m.plan.contact) {
     const Overlap most = penetration(s.cracks, s.grid.lattice.h);

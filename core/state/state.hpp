@@ -30,9 +30,9 @@ struct LawTables {
 
 /// Least and largest det F and largest principal stretch when stock was taken last, and the chunks of particles
 /// (exec::chunk) that hold them. Where F is not kept, det F stands for the stretch.
-struct DetF {
-  double least = 1, largest = 1, stretch = 1;
-  long least_chunk = 0, largest_chunk = 0, stretch_chunk = 0;
+struct Deformation {
+  double least_J = 1, largest_J = 1, stretch = 1;
+  long least_J_chunk = 0, largest_J_chunk = 0, stretch_chunk = 0;
 };
 
 /// What the particle kernels saw in the last step, per tile and in all.
@@ -44,7 +44,7 @@ struct StepWatch {
   exec::Array<double> tile_apart;   ///< [tiles] largest difference of a particle's velocity and the grid's, m/s
   double largest_move = 0;          ///< m, this step
   double least_J = 1;
-  DetF det_F;
+  Deformation deformation;
   double velocity_difference = 0;  ///< m/s, along an axis, in the last step in which it was looked at
   double drift = 0;                ///< sum of largest_move since the particles were sorted, m
   long sorted_at = 0;              ///< Clock::step at which they were
