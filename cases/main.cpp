@@ -5,9 +5,44 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "cases/commands.hpp"
 #include "core/error.hpp"
+#include "io/suggest.hpp"
+
+namespace {
+
+/// Does what the command line says. Throws Error (bad_input) where it begins with no command of the program.
+void obey(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::RequiredError&) {
+    const std::vector<std::string> unknown = app.remaining();
+    if (unknown.empty() || !app.get_subcommands().empty())
+      throw;
+    const std::string& word = unknown.front();
+    const std::vector<CLI::App*> commands = app.get_subcommands({});
+    std::vector<std::string> names;
+    names.reserve(commands.size());
+    for (const CLI::App* command : commands)
+      names.push_back(command->get_name());
+    const std::string near = riven::nearest(word, names);
+    std::string suggestion = "riven --help";
+    if (!near.empty())
+      suggestion = "did you mean '" + near + "'?";
+    else if (word.ends_with(".toml"))
+      suggestion = "riven run " + riven::shown(word);
+    riven::fail({.code = riven::Exit::bad_input,
+                 .what = "there is no such command or option",
+                 .value = riven::shown(word),
+                 .limit = riven::listed(names),
+                 .suggestion = suggestion});
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using riven::Exit;
@@ -22,7 +57,7 @@ int main(int argc, char** argv) {
   riven::add_study(app);
   riven::add_advise(app);
   try {
-    app.parse(argc, argv);
+    obey(app, argc, argv);
     return static_cast<int>(Exit::done);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) ? static_cast<int>(Exit::bad_input) : static_cast<int>(Exit::done);
