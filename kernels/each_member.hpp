@@ -112,6 +112,8 @@ void each_member(Tip& t, F&& f) {
   f("released", t.released);
   f("due", t.due);
   f("grew", t.grew);
+  f("load", t.load);
+  f("checked", t.checked);
   f("step", t.step);
   f("J", t.J);
   f("J1", t.J1);
@@ -186,6 +188,7 @@ void each_member(FractureReport& r, F&& f) {
   f("evaluations", r.evaluations);
   f("crossed", r.crossed);
   f("bent", r.bent);
+  f("mixed", r.mixed);
   f("place", r.place);
 }
 

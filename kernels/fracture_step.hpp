@@ -16,7 +16,8 @@ struct FractureReport {
   long evaluations = 0;
   long crossed = 0;  ///< evaluations with another crack in the domain
   long bent = 0;     ///< a bend with faces pressed together behind it was too near for a contour that leaves it out
-  Vec2 place[4];
+  long mixed = 0;    ///< a tip grew to where its contour takes in another material
+  Vec2 place[5];
 };
 
 /// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth

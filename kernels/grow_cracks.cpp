@@ -7,6 +7,7 @@
 
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
+#include "core/fracture/stress_intensity.hpp"
 #include "core/state/make_tips.hpp"
 #include "kernels/bring_near.hpp"
 #include "kernels/particles_near.hpp"
@@ -20,13 +21,14 @@ constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face e
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
 constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
+constexpr double unseen = 4;  ///< cells that a wave may go before a tip at rest is looked at again: its least contour
 
 template <class Real>
 class Growth {
  public:
   /// `boxes`: around the cracks as they are.
   Growth(SimulationOf<Real>& m, Tip& tip, const std::vector<Rectangle>& boxes)
-      : scene_(m.scene), s_(m.state), tip_(tip), boxes_(boxes) {
+      : scene_(m.scene), s_(m.state), report_(m.fracture), tip_(tip), boxes_(boxes) {
     const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
     rule_ = growth_rule(scene_, tip.crack);
     particle_ = scene_.cell / body.particles_per_cell;
@@ -39,7 +41,9 @@ class Growth {
   }
 
   void check() {
-    tip_.due = s_.clock.step + check_interval(particle_, limit_, s_.clock.dt);
+    const long interval = check_interval(particle_, limit_, s_.clock.dt);
+    const long alone = steps_alone();
+    tip_.due = s_.clock.step + (tip_.running ? interval : std::max(interval, alone));
     const std::optional<Vec2> way = next_way();
     Tip* const other = way || tip_.running ? facing_tip() : nullptr;
     if (other)
@@ -57,6 +61,7 @@ class Growth {
     book(segment);
     tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
     tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
+    look_for_materials(to);
   }
 
  private:
@@ -165,6 +170,18 @@ class Growth {
         close(t, CrackEvent::Kind::join, o.place, tip_.crack);
   }
 
+  /// Steps for which the tip, if it rests, is left alone, by what its load has done since the last check.
+  long steps_alone() {
+    const double load = tip_.sound ? growth_load(*rule_, tip_) : tip_.load;
+    const long steps = s_.clock.step - tip_.checked;
+    const double rise = steps > 0 ? (load - tip_.load) / static_cast<double>(steps) : load;
+    tip_.load = load;
+    tip_.checked = s_.clock.step;
+    const PlaneElasticity solid(scene_.materials[static_cast<size_t>(tip_.material)], scene_.plane);
+    return steps_at_rest(load, rise,
+                         static_cast<long>(unseen * scene_.cell / (solid.dilatational_speed * s_.clock.dt)));
+  }
+
   void wait() {
     const double since = now_ - tip_.grew;
     if (!tip_.running)
@@ -175,6 +192,17 @@ class Growth {
       tip_.speed = 0;
       record(tip_, CrackEvent::Kind::arrest, x_, -1);
     }
+  }
+
+  /// Counts a tip that has come so near to another material that its contour takes some of it in.
+  void look_for_materials(Vec2 x) {
+    if (scene_.materials.size() < 2)
+      return;
+    bool mixed = false;
+    each_particle_near(s_, x, 0.5 * scene_.fracture.contour * scene_.cell,
+                       [&](int k) { mixed |= scene_.bodies[s_.particles.body[k]].material != tip_.material; });
+    if (mixed && report_.mixed++ == 0)
+      report_.place[4] = x;
   }
 
   Vec2 first(Vec2 x) const {
@@ -221,6 +249,7 @@ class Growth {
 
   const Scene& scene_;
   State<Real, 2>& s_;
+  FractureReport& report_;
   Tip& tip_;
   const std::vector<Rectangle>& boxes_;
   const GrowthRule* rule_;

@@ -125,12 +125,12 @@ Scene many_plate(double edge, double cell) {
   return s;
 }
 
-Scene growing_plate(double cell) {
+Scene growing_plate(double cell, double velocity) {
   Scene s = shipped("ten_cracks.toml");
   const Rectangle plate = bounds(s.bodies[0].region);
   s.grid = {plate.lower - 8 * Vec2{cell, cell}, plate.upper + 8 * Vec2{cell, cell}};
   s.cell = cell;
-  pull_apart(s, plate.upper - plate.lower, 20);
+  pull_apart(s, plate.upper - plate.lower, velocity);
   return s;
 }
 

@@ -36,8 +36,9 @@ Scene sent_plate(double cell);
 /// own cells unless said.
 Scene many_plate(double edge, double cell = 0.5e-3);
 
-/// The shipped plate with ten cracks, pulled so fast that all of them grow a few hundred steps later.
-Scene growing_plate(double cell);
+/// The shipped plate with ten cracks, pulled so fast that all of them grow a few hundred steps later, or at another
+/// velocity of its ends (m/s).
+Scene growing_plate(double cell, double velocity = 20);
 
 /// The shipped plate with 1,000 cracks, of so little toughness that they begin to grow some sixty steps after it is
 /// pulled.

@@ -34,11 +34,24 @@ long check_interval(double particle, double speed_limit, double dt) {
   return std::max(1L, static_cast<long>(particle / (speed_limit * dt) * (1 + 1e-9)));
 }
 
-std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
-  const HoopStress hoop = greatest_hoop_stress(tip.drive_I, tip.drive_II);
+double growth_load(const GrowthRule& rule, const Tip& tip) {
+  if (rule.criterion == GrowthCriterion::k_max)
+    return std::max(0., greatest_hoop_stress(tip.drive_I, tip.drive_II).K / rule.toughness);
   const double K2 = tip.drive_I * tip.drive_I + tip.drive_II * tip.drive_II;
   const double J = tip.drive_I < 0 && K2 > 0 ? tip.release * tip.drive_II * tip.drive_II / K2 : tip.release;
-  if (!((rule.criterion == GrowthCriterion::k_max ? hoop.K : J) >= rule.toughness))
+  return std::sqrt(std::max(0., J / rule.toughness));
+}
+
+long steps_at_rest(double load, double rise, long most) {
+  constexpr double near = 0.1;  // to growth: less than this, and noise may take a tip there that rises no more
+  if (!(load < 1) || most < 2)
+    return 1;
+  const double least = 0.5 * near / static_cast<double>(most);
+  return std::clamp(static_cast<long>(0.5 * (1 - load) / std::max(rise, least)), 1L, most);
+}
+
+std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
+  if (!(growth_load(rule, tip) >= 1))
     return std::nullopt;
   switch (rule.direction) {
     case GrowthDirection::self_similar: return ahead;
@@ -48,7 +61,8 @@ std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec
     }
     case GrowthDirection::hoop: break;
   }
-  return std::cos(hoop.angle) * ahead + std::sin(hoop.angle) * turned(ahead);
+  const double angle = greatest_hoop_stress(tip.drive_I, tip.drive_II).angle;
+  return std::cos(angle) * ahead + std::sin(angle) * turned(ahead);
 }
 
 }  // namespace riven

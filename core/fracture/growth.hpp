@@ -32,6 +32,15 @@ double rayleigh_speed(const Material& material, Plane plane);
 /// nothing.
 long check_interval(double particle, double speed_limit, double dt);
 
+/// How near a tip is to growth: its K^max, or the square root of its J, over that at which it grows; at least 1 where
+/// it does, 0 where nothing drives it.
+double growth_load(const GrowthRule& rule, const Tip& tip);
+
+/// Steps for which a tip at rest may be left alone: half of those in which its load, which rises by `rise` a step,
+/// comes to 1, but no more than `most`, in case it rises faster from now on, and fewer from a load of 0.9 on; at
+/// least 1.
+long steps_at_rest(double load, double rise, long most);
+
 /// Whether the tip is to be checked in this step, so that J and K are needed.
 inline bool growth_due(const Tip& tip, long step) {
   return tip.open && tip.grows && step >= tip.due;

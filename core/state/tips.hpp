@@ -19,6 +19,8 @@ struct Tip {
   double released = 0;   ///< J, by its growth
   long due = 0;          ///< Clock::step at which it is checked for growth next
   double grew = 0;       ///< s, time at which it grew last
+  double load = 0;       ///< how near it was to growth at its last check; see growth_load
+  long checked = 0;      ///< Clock::step of that
 
   // the last evaluation of J
   long step = -1;            ///< Clock::step of it

@@ -130,5 +130,31 @@ TEST(Growth, ChecksATipOncePerParticleAtTheSpeedLimit) {
   EXPECT_FALSE(growth_due(tip, 7));
 }
 
+TEST(Growth, SaysHowNearATipIsToIt) {
+  Tip tip;
+  tip.drive_I = 3;
+  tip.release = 25;
+  EXPECT_DOUBLE_EQ(growth_load(rule(GrowthCriterion::k_max, 6, GrowthDirection::hoop), tip), 0.5);
+  EXPECT_DOUBLE_EQ(growth_load(rule(GrowthCriterion::critical_j, 100, GrowthDirection::hoop), tip), 0.5);
+  tip.release = 0;
+  tip.drive_I = 0;
+  for (const GrowthCriterion c : {GrowthCriterion::k_max, GrowthCriterion::critical_j})
+    EXPECT_EQ(growth_load(rule(c, 6, GrowthDirection::hoop), tip), 0);
+}
+
+TEST(Growth, LeavesTipsAtRestAloneForHalfTheWayToIt) {
+  EXPECT_EQ(steps_at_rest(0.5, 0, 6), 6);
+  EXPECT_EQ(steps_at_rest(0.5, -1, 6), 6);
+  EXPECT_EQ(steps_at_rest(0.5, 0.01, 6), 6);
+  EXPECT_EQ(steps_at_rest(0.9, 0.0099, 6), 5);
+  EXPECT_EQ(steps_at_rest(0.9, 0.02, 6), 2);
+  EXPECT_EQ(steps_at_rest(0.9, 0.2, 6), 1);
+  EXPECT_EQ(steps_at_rest(0.95, 0, 8), 4);
+  EXPECT_EQ(steps_at_rest(0.99, 0, 8), 1);
+  EXPECT_EQ(steps_at_rest(0.5, 0, 0), 1);
+  for (const double rise : {-1., 0., 1.})
+    EXPECT_EQ(steps_at_rest(1.2, rise, 6), 1);
+}
+
 }  // namespace
 }  // namespace riven
