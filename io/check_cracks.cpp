@@ -83,16 +83,32 @@ bool lies_on_itself(const Points& line, double tolerance) {
   return false;
 }
 
-/// Faces of cracks that lie on each other are the same, and so are their ends, none of which is a tip then.
+/// Half the size of the smallest particles, m, within which an end of a crack counts as joined to another.
+double half_particle(const Scene& s) {
+  double least = s.cell;
+  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
+    least = std::min(least, junction_reach(s, b));
+  return least;
+}
+
+/// Faces of cracks that lie on each other are the same, and so are their ends, none of which is a tip then. Nor is
+/// there anything between those that lie along each other nearer than half a particle.
 void check_doubles(const Scene& s) {
   if (s.cracks.size() > most_compared)
     return;
+  const double near = half_particle(s);
   for (const CrackLine& c : s.cracks)
-    for (const CrackLine& other : s.cracks)
-      if (&c != &other && lies_on(c.points, other.points, 0.01 * s.cell))
-        refuse(s, "crack " + c.name, "the crack lies on another one, crack " + other.name,
-               text(c.points.front()) + " to " + text(c.points.back()), "cracks that meet or cross, at most",
-               "only one of them");
+    for (const CrackLine& other : s.cracks) {
+      if (&c == &other || !lies_on(c.points, other.points, near))
+        continue;
+      const std::string place = text(c.points.front()) + " to " + text(c.points.back());
+      if (lies_on(c.points, other.points, 0.01 * s.cell))
+        refuse(s, "crack " + c.name, "the crack lies on another one, crack " + other.name, place,
+               "cracks that meet or cross, at most", "only one of them");
+      refuse(s, "crack " + c.name, "the crack lies all along crack " + other.name + " with no particle between", place,
+             fmt::format("{:.2g} mm or more, half a particle, from cracks beside it", 1e3 * near),
+             "smaller cells, or only one of them");
+    }
   for (const CrackLine& c : s.cracks)
     if (lies_on_itself(c.points, 0.01 * s.cell))
       refuse(s, "crack " + c.name, "the crack turns back and lies on itself",
@@ -106,7 +122,9 @@ void check_tips(const Scene& s) {
   if (!s.growth && !cracks_grow && !(s.fracture.asked && !s.cracks.empty()))
     return;
   const std::vector<Tip> tips = make_tips(s);
-  constexpr const char* wanted = "an end inside a body, off its border and off other cracks";
+  const std::string wanted =
+      fmt::format("an end inside a body, {:.2g} mm or more, half a particle, from its border and from other cracks",
+                  1e3 * half_particle(s));
   if (s.fracture.asked && tips.empty())
     refuse(s, "fracture", "J and K are asked for but no crack has a tip in a body",
            fmt::format("{} cracks", s.cracks.size()), wanted, "no [fracture]");

@@ -19,6 +19,14 @@ struct Nearest {
   Junction on;
 };
 
+/// Is a crack so long that its ends meet where they are within `reach` of each other, and not for its being short?
+bool may_close(const Cracks& cracks, int crack, double reach) {
+  double length = 0;
+  for (int k = cracks.end_point(crack, false); k < cracks.end_point(crack, true); ++k)
+    length += norm(cracks.plane[k + 1] - cracks.plane[k]);
+  return length > 4 * reach;
+}
+
 /// Where within `reach` an end meets an end of a crack that comes before it, or its own other end; the first crack.
 std::optional<Junction> end_met(const Cracks& cracks, int crack, bool last, double reach) {
   const Vec2 x = cracks.plane[cracks.end_point(crack, last)];
@@ -27,7 +35,7 @@ std::optional<Junction> end_met(const Cracks& cracks, int crack, bool last, doub
       if (c == crack && (!last || other_last))
         continue;  // of a closed line, the last end is tied to the first
       const int k = cracks.end_point(c, other_last), segments = cracks.end_point(c, true) - cracks.end_point(c, false);
-      if (norm(cracks.plane[k] - x) < reach)
+      if (norm(cracks.plane[k] - x) < reach && (c != crack || may_close(cracks, crack, reach)))
         return Junction{crack, last, c, other_last ? segments - 1 : 0, double(other_last)};
     }
   return std::nullopt;

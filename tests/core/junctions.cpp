@@ -80,6 +80,11 @@ TEST(Junctions, AreWhereACrackMeetsItself) {
   EXPECT_EQ(ties({{{4, 4}, {4.1, 4}, {4.1, 4.1}, {4, 8}}}), Ties{});  // turns sharply near its end
 }
 
+TEST(Junctions, AreNotTheEndsOfACrackForItsBeingShort) {
+  EXPECT_EQ(ties({{{4, 4}, {4.01, 4}}}), Ties{});
+  EXPECT_EQ(ties({{{4, 4}, {4.2, 4.2}, {4.01, 4}}}), Ties{});
+}
+
 /// The tied end reaches over what it meets, and its surfaces begin on its own side.
 TEST(Junctions, BeginOnTheCrackThatTheyMeet) {
   const Cracks c = tied({{{2, 4}, {8, 4}}, {{5, 4.2}, {5, 2}}});
