@@ -231,7 +231,9 @@ void visit_cracks(Cracks& c, CrackFields& fields, Visitor& f) {
   f.growing("cracks/upper_velocity", c.upper_velocity);
   f.growing("cracks/lower_velocity", c.lower_velocity);
   f.growing("cracks/first_plane", c.plane0);
+  f.growing("cracks/density", c.density);
   f.growing("cracks/jump", c.jump);
+  f.growing("cracks/in_solid", c.in_solid);
   f.growing("cracks/cohesive", c.cohesive);
   f.growing("cracks/bearing", c.bearing);
   f.grown_records("cracks/junctions", c.junctions);

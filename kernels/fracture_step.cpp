@@ -131,7 +131,7 @@ class JSearch {
     const PlaneElasticity& solid = *task.solid;
     const double none = std::numeric_limits<double>::quiet_NaN();
     const Vec2 opening = opening_behind(s_.cracks, tip, m_.scene.cell, task.sums.whole);
-    const StressIntensity by_opening = share_out(solid, tip.J, tip.speed, opening);
+    const StressIntensity by_opening = share_out(solid, tip.J, speed_of(tip), opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
     const bool by_interaction = usable(task);
@@ -139,7 +139,7 @@ class JSearch {
       const StressIntensity M = interaction(d, task);
       tip.M_I = M.I;
       tip.M_II = M.II;
-      set_intensity(tip, solid, share_in_proportion(solid, tip.J, tip.speed, M), at_rest(task, M));
+      set_intensity(tip, solid, share_in_proportion(solid, tip.J, speed_of(tip), M), at_rest(task, M));
     } else {
       tip.M_I = tip.M_II = none;
       set_intensity(tip, solid, by_opening, share_out(solid, tip.J, 0, opening));
@@ -153,6 +153,12 @@ class JSearch {
     tip.drive_I = drive.I;
     tip.drive_II = drive.II;
     tip.release = (drive.I * drive.I + drive.II * drive.II) / solid.E;
+  }
+
+  /// From the Rayleigh speed on, which a `speed_limit` may let a tip pass, there are no K: those just below are taken.
+  double speed_of(const Tip& tip) const {
+    const Material& material = m_.scene.materials[static_cast<size_t>(tip.material)];
+    return tip.speed > 0 ? std::min(tip.speed, 0.99 * rayleigh_speed(material, m_.scene.plane)) : 0;
   }
 
   static bool usable(const TipTask& task) { return task.interaction && !task.sums.crossed && !task.sums.bent; }
@@ -175,7 +181,7 @@ class JSearch {
       return;
     Tip& tip = *d.tip;
     const StressIntensity M = interaction(d, task);
-    set_intensity(tip, *task.solid, share_in_proportion(*task.solid, tip.J, tip.speed, M), at_rest(task, M));
+    set_intensity(tip, *task.solid, share_in_proportion(*task.solid, tip.J, speed_of(tip), M), at_rest(task, M));
   }
 
   SimulationOf<Real>& m_;

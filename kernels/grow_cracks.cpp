@@ -8,6 +8,7 @@
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/fracture/stress_intensity.hpp"
+#include "core/state/bodies_at_cracks.hpp"
 #include "core/state/make_tips.hpp"
 #include "kernels/bring_near.hpp"
 #include "kernels/particles_near.hpp"
@@ -58,6 +59,7 @@ class Growth {
     if (!solid_ahead(s_, to, *way, particle_))
       return leave(to, *way, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
     book(segment);
     tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
     tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
@@ -141,6 +143,7 @@ class Growth {
     o.place = c.plane[k];
     o.distance = norm(o.place - x_);
     join_crack(s_.cracks, o, c.plane0[k], scene_.cell);
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
     book(o.distance);
     close(tip_, CrackEvent::Kind::meet, o.place, other.crack);
     close(other, CrackEvent::Kind::meet, o.place, tip_.crack);
@@ -154,8 +157,10 @@ class Growth {
       return join(*open, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
     book(segment);
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
     const double on = way_before_solid(s_, to, way, beyond, particle_);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to + on * way, first(to) + on * way);
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
     end_bears_nothing(s_.cracks, tip_.crack, tip_.last);
     close(tip_, CrackEvent::Kind::exit, to, -1);
   }
@@ -163,6 +168,7 @@ class Growth {
   void join(const Obstacle& o) { join(o, o.distance); }
   void join(const Obstacle& o, double cut) {
     join_crack(s_.cracks, o, first(o.place), scene_.cell);
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
     book(cut);
     close(tip_, CrackEvent::Kind::join, o.place, o.on.other);
     for (Tip& t : s_.tips)

@@ -19,7 +19,7 @@ namespace riven {
 inline namespace RIVEN_SIDE {
 
 struct SegmentFrame {
-  double length;  ///< m
+  double length;  ///< m, of what lies in a body
   Vec2 along;     ///< from the first to the second point
   Vec2 normal;    ///< from above to below
 };
@@ -36,6 +36,7 @@ struct InterfaceSegments {
   const ThirdNormal* third_normals;
   const int* start;
   const Vec2* plane;
+  const double* in_solid;  ///< null: all of it
   const ContactSettings* law;
 
   InterfaceSegments(const exec::Array<DomainSetting<Real, 2>>& domains, const Grid<Real>& g, const CrackFields& f,
@@ -50,6 +51,7 @@ struct InterfaceSegments {
         third_normals(exec::data(f.third_normals)),
         start(exec::data(c.start)),
         plane(exec::data(c.plane)),
+        in_solid(c.in_solid.empty() ? nullptr : exec::data(c.in_solid)),
         law(exec::data(c.contact)) {}
 
   RIVEN_INLINE long slot(const NodeCracks& n, int f) const {
@@ -92,8 +94,8 @@ struct InterfaceSegments {
     const double inv_h = 1 / lattice.h;
     for (int p = start[c]; p + 1 < start[c + 1]; ++p) {
       const Vec2 line = plane[p + 1] - plane[p], at = (0.5 * inv_h) * (plane[p] + plane[p + 1] - 2 * lattice.origin);
-      const double length = norm(line);
-      if (length == 0)
+      const double length = norm(line), inside = in_solid ? in_solid[p] : 1;
+      if (length == 0 || inside == 0)
         continue;
       const auto a = Shape::axis(at.x, domain.axis[0]);
       const auto b = Shape::axis(at.y, domain.axis[1]);
@@ -116,7 +118,7 @@ struct InterfaceSegments {
         sum += w;
       }
       const Vec2 along = line * (1 / length);
-      body(p, SegmentFrame{length, along, -turned(along)}, [&](auto&& f) {
+      body(p, SegmentFrame{inside * length, along, -turned(along)}, [&](auto&& f) {
         for (int n = 0; n < count; ++n)
           f(index[n], which[n], weight[n] / sum);
       });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/exec/parallel.hpp"
@@ -31,18 +32,37 @@ Vec2 surface_move(const PointMotion& m, SurfaceUpdate update, double dt, bool ve
 }
 
 /// A motion of less mass comes from nodes that the body barely reaches, as those around a crack's points that lie
-/// outside of it: their accelerations f/m have no bound. Of a crack beside a body all are: `least` says so.
-double sound_mass(const FoundMotions& found, long first, long last, double least) {
-  double most = 5 * least;
-  for (long k = first; k < last; ++k)
-    most = std::max({most, found.surface(k, 0).mass, found.surface(k, 1).mass});
-  return 0.2 * most;
-}
+/// outside of it: their accelerations f/m have no bound. Of a crack beside a body all are: `least` says so. Masses are
+/// held against each other over the densities of the bodies that they belong to, where these differ.
+class SoundMass {
+ public:
+  SoundMass(const FoundMotions& found, const Cracks& cracks, long first, long last, double least)
+      : cracks_(cracks), least_(least) {
+    for (long k = first; k < last; ++k)
+      for (int side = 0; side < 2; ++side)
+        most_ = std::max(most_, found.surface(k, side).mass / density(k, side));
+  }
+  /// At the upper (0) or the lower surface of point k.
+  double of(long k, int side) const { return std::max(least_, 0.2 * most_ * density(k, side)); }
+
+ private:
+  double density(long k, int side) const {
+    if (cracks_.density.empty())
+      return 1;
+    const double is = side == 0 ? cracks_.density[k].x : cracks_.density[k].y;
+    return is > 0 ? is : std::numeric_limits<double>::max();
+  }
+
+  const Cracks& cracks_;
+  double least_, most_ = 0;
+};
 
 /// The moves of point k by what was found for it with no less mass than is sound.
-Moves moves_of(const FoundMotions& found, double sound, CrackRules rules, double dt, long k, Cracks& cracks) {
-  const auto kept = [sound](const PointMotion& m) { return m.mass < sound ? PointMotion{} : m; };
-  const PointMotion up = kept(found.surface(k, 0)), low = kept(found.surface(k, 1)), all = kept(found.of_all(k));
+Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rules, double dt, long k, Cracks& cracks) {
+  const auto kept = [](const PointMotion& m, double least) { return m.mass < least ? PointMotion{} : m; };
+  const double above = sound.of(k, 0), below = sound.of(k, 1);
+  const PointMotion up = kept(found.surface(k, 0), above), low = kept(found.surface(k, 1), below),
+                    all = kept(found.of_all(k), std::min(above, below));
   const bool has_up = up.mass > 0, has_low = low.mass > 0, xpic = rules.update == SurfaceUpdate::xpic;
   Vec2* const up_velocity = xpic ? &cracks.upper_velocity[k] : nullptr;
   Vec2* const low_velocity = xpic ? &cracks.lower_velocity[k] : nullptr;
@@ -102,7 +122,7 @@ void close_tip(Moves& m, long k, Cracks& cracks) {
 /// Moves the points of one crack by what was found for them.
 void move_crack(const CrackRules& rules, double dt, int crack, const FoundMotions& found, Cracks& cracks) {
   const long first = cracks.end_point(crack, false), last = cracks.end_point(crack, true) + 1;
-  const double sound = sound_mass(found, first, last, rules.least_mass);
+  const SoundMass sound(found, cracks, first, last, rules.least_mass);
   std::vector<Moves> moves(static_cast<size_t>(last - first));
   for (long k = first; k < last; ++k)
     moves[static_cast<size_t>(k - first)] = moves_of(found, sound, rules, dt, k, cracks);

@@ -29,6 +29,8 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
   if (!cracks.upper_velocity.empty())
     cracks.upper_velocity[at] = cracks.lower_velocity[at] =
         0.5 * (cracks.upper_velocity[end] + cracks.lower_velocity[end]);
+  if (!cracks.in_solid.empty())
+    cracks.in_solid[last ? end : at] = 1;
   if (!cracks.bearing.empty()) {
     const Vec2 there = cracks.bearing[end];
     cracks.bearing[at] = last ? Vec2{there.y, there.y} : Vec2{there.x, there.x};
@@ -37,6 +39,8 @@ int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0) 
 }
 
 void end_bears_nothing(Cracks& cracks, int crack, bool last) {
+  if (!cracks.in_solid.empty())
+    cracks.in_solid[last ? cracks.next_to_end(crack, true) : cracks.end_point(crack, false)] = 0;
   if (cracks.bearing.empty())
     return;
   cracks.bearing[cracks.end_point(crack, last)] = {};

@@ -13,7 +13,7 @@ namespace riven {
 /// was at first.
 int extend_crack(Cracks& cracks, int crack, bool last, Vec2 plane, Vec2 plane0);
 
-/// The segment at an end of a crack lies outside of the solid, and bears no tractions.
+/// The segment at an end of a crack lies outside of the solid, and bears neither tractions nor an interface.
 void end_bears_nothing(Cracks& cracks, int crack, bool last);
 
 /// What a crack runs into.

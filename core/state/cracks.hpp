@@ -40,9 +40,11 @@ struct Cracks {
   exec::Array<Vec2> upper_velocity, lower_velocity;  ///< [points] XPIC(1) only
   bool velocities_known = false;                     ///< set by the first move; until then surfaces start with the grid
   exec::Array<Vec2> plane0;                          ///< [points] where the plane was when the point was made
+  exec::Array<Vec2> density;  ///< [points] kg/m^3, above (x) and below (y); empty where bodies have the same
   /// [points] of the segment that starts at a point: jump of displacement across an imperfect interface, along the
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
+  exec::Array<double> in_solid;  ///< [points] share of that segment that lies in a body at first (`interface` only)
   std::vector<Junction> junctions;
   exec::Array<std::uint8_t> open;  ///< [2 cracks] first and last ends: 1 for tips seen so (crack_path.hpp)
 
@@ -82,9 +84,10 @@ struct Cracks {
     };
     some(self.crack);
     some(self.serial);
-    for (auto* a :
-         {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0, &self.jump})
+    for (auto* a : {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0,
+                    &self.density, &self.jump})
       some(*a);
+    some(self.in_solid);
     some(self.cohesive);
     some(self.bearing);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/state/bodies_at_cracks.hpp"
 #include "core/state/junctions.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
@@ -144,6 +145,8 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       finest = std::min(finest, scene.cell / b.particles_per_cell);
     s.cracks = make_cracks(scene, finest);
     tie_from_start(scene, s.cracks);
+    lay_densities(scene, s.cracks);
+    lay_in_solid(scene, s.cracks);
     if (plan.fracture)
       for (const Tip& t : make_tips(scene))
         s.cracks.set_open(t.crack, t.last, true);
