@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 
 #include "cases/commands.hpp"
 #include "core/error.hpp"
@@ -82,8 +81,9 @@ std::string find_file(Shipped kind, const std::string& name) {
 double parse_tolerance(const std::string& text) {
   const std::optional<double> number = plain_number(text);
   const double x = number ? *number : parse_quantity(text, {"ratio", "1", {"%"}});
-  if (!(x > 0 && std::isfinite(x)))
-    fail({Exit::bad_input, "the tolerance is out of range", "--within", shown(text), "greater than 0, as 2% or 0.02"});
+  if (!(x > 0 && x < 1))
+    fail({Exit::bad_input, "the tolerance is out of range", "--within", shown(text), "between 0 and 1, as 2% or 0.02",
+          number && x >= 1 && x < 100 ? "did you mean '" + text + "%'?" : ""});
   return x;
 }
 

@@ -69,18 +69,22 @@ bool lies_on(const Points& line, const Points& other, double tolerance) {
   return true;
 }
 
-/// Does a line lie on an earlier part of itself for some length? Where parts only meet or cross it does not. Of long
-/// ones only parts that are near along the line are compared.
-bool lies_on_itself(const Points& line, double tolerance) {
+/// Where a line lies on an earlier part of itself for some length; where parts only meet or cross it does not. Of long
+/// ones only parts that are near along the line are compared, and none with what comes right before it.
+std::optional<Vec2> own_double(const Points& line, double tolerance) {
   constexpr size_t most_back = 300;  // segments
   for (size_t j = 2; j < line.size(); ++j) {
     const Vec2 from = line[j - 1], piece = (1. / pieces) * (line[j] - from);
-    for (size_t i = j > most_back ? j - most_back : 1; i < j; ++i)
+    double between = 0;  // along the line, from the end of segment i to the start of segment j
+    for (size_t i = j - 1; i >= 1 && i + most_back > j; --i) {
       for (int k = 0; k < pieces; ++k)
-        if (lies_on({from + double(k) * piece, from + (k + 1.) * piece}, {line[i - 1], line[i]}, tolerance))
-          return true;
+        if (between + k * norm(piece) > 4 * tolerance &&
+            lies_on({from + double(k) * piece, from + (k + 1.) * piece}, {line[i - 1], line[i]}, tolerance))
+          return from + double(k) * piece;
+      between += norm(line[i] - line[i - 1]);
+    }
   }
-  return false;
+  return std::nullopt;
 }
 
 /// Half the size of the smallest particles, m, within which an end of a crack counts as joined to another.
@@ -110,10 +114,9 @@ void check_doubles(const Scene& s) {
              "smaller cells, or only one of them");
     }
   for (const CrackLine& c : s.cracks)
-    if (lies_on_itself(c.points, 0.01 * s.cell))
-      refuse(s, "crack " + c.name, "the crack turns back and lies on itself",
-             text(c.points.front()) + " to " + text(c.points.back()), "a line that crosses itself, at most",
-             "points in their order along the crack");
+    if (const auto at = own_double(c.points, 0.01 * s.cell))
+      refuse(s, "crack " + c.name, "the crack turns back and lies on itself", "at " + text(*at),
+             "a line that crosses itself, at most", "points in their order along the crack");
 }
 
 /// Growth asked for must have a tip to grow from, and J one to be found at.

@@ -98,6 +98,8 @@ std::vector<CrackRow> parse_crack_file(std::string_view text, const std::string&
   std::vector<Column> columns;
   std::vector<CrackRow> rows;
   std::string_view rest = text;
+  if (constexpr std::string_view mark = "\xEF\xBB\xBF"; rest.starts_with(mark))  // as spreadsheets begin a file
+    rest.remove_prefix(mark.size());
   for (int line_number = 1; !rest.empty(); ++line_number) {
     const size_t newline = rest.find('\n');
     const std::string line(trimmed(rest.substr(0, newline)));

@@ -1,6 +1,8 @@
 #include "io/stop_request.hpp"
 
 #include <atomic>
+#include <ctime>
+#include <iterator>
 
 #include "core/exec/timers.hpp"
 
@@ -8,23 +10,36 @@ namespace riven {
 
 namespace {
 
-constexpr int signals[] = {SIGINT, SIGTERM};
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int signal_count = std::size(signals);
+constexpr long patience = 500;  ///< ms
 
 std::atomic<int> noted{0};
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<long> noted_at{0};  ///< ms
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<long>::is_always_lock_free);
 
+/// Calls nothing but what a signal may.
 void note(int signal) {
-  noted.store(signal, std::memory_order_relaxed);
+  timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const long now = 1000 * time.tv_sec + time.tv_nsec / 1000000;
+  if (noted == 0) {
+    noted_at = now;
+    noted = signal;
+  } else if (now - noted_at > patience) {
+    std::signal(signal, SIG_DFL);
+    raise(signal);  // which ends the program once this returns
+  }
 }
 
 }  // namespace
 
 StopRequest::StopRequest(double wall_limit) : end_(exec::Stopwatch::now() + wall_limit) {
   noted = 0;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < signal_count; ++i) {
     struct sigaction action {};
     action.sa_handler = note;
-    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+    action.sa_flags = SA_RESTART;
     sigaction(signals[i], nullptr, &before_[i]);
     if (before_[i].sa_handler != SIG_IGN)
       sigaction(signals[i], &action, nullptr);
@@ -32,7 +47,7 @@ StopRequest::StopRequest(double wall_limit) : end_(exec::Stopwatch::now() + wall
 }
 
 StopRequest::~StopRequest() {
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < signal_count; ++i)
     sigaction(signals[i], &before_[i], nullptr);
 }
 
@@ -41,8 +56,12 @@ bool StopRequest::asked() const {
 }
 
 std::string StopRequest::by() const {
-  const int signal = noted;
-  return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "the wall limit";
+  switch (noted) {
+    case SIGINT: return "SIGINT";
+    case SIGTERM: return "SIGTERM";
+    case SIGHUP: return "SIGHUP";
+    default: return "the wall limit";
+  }
 }
 
 }  // namespace riven

@@ -1,12 +1,13 @@
-// Asked to stop: by SIGINT (Ctrl-C), SIGTERM, or because the time is up.
+// Asked to stop: by SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), or because the time is up.
 #pragma once
 #include <csignal>
 #include <string>
 
 namespace riven {
 
-/// While it lives, the first SIGINT and the first SIGTERM are noted, and a second one ends the program as ever. Signals
-/// that the program was started to ignore stay ignored. One at a time.
+/// While it lives, the first of these signals is noted, and one that comes more than half a second later ends the
+/// program as ever: what asks a program to stop often asks it and its group, one after the other. Signals that the
+/// program was started to ignore stay ignored. One at a time.
 class StopRequest {
  public:
   /// `wall_limit`: s from now.
@@ -16,12 +17,12 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   bool asked() const;
-  /// "SIGINT", "SIGTERM" or "the wall limit".
+  /// "SIGINT", "SIGTERM", "SIGHUP" or "the wall limit".
   std::string by() const;
 
  private:
   double end_;  ///< s, on the clock of stop watches
-  struct sigaction before_[2];
+  struct sigaction before_[3];
 };
 
 }  // namespace riven

@@ -23,6 +23,8 @@ constexpr Setting settings[] = {
        return std::all_of(s.materials.begin(), s.materials.end(),
                           [](const Material& m) { return m.law == LawKind::neo_hookean; });
      }},
+    {"contact.law = \"ignored\"",
+     [](const Scene& s) { return s.cracks.empty() || s.contact.law == ContactLaw::ignored; }},
     {"contact.detection = \"displacement\"",
      [](const Scene& s) { return s.contact_rules.detection == ContactDetection::displacement; }},
 };

@@ -96,6 +96,13 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
                    lag > 0.01 * limit ? fmt::format(", and {:.3g} % so soon after the start", 100 * lag) : ""));
 }
 
+void time_stands_still(const Clock& c, double least) {
+  fail({Exit::unstable, "the time step is so small that the run would get nowhere",
+        fmt::format("step {}, time {:.6g} s", c.step, c.time), fmt::format("{:.6g} s, for the {}", c.dt, c.limiter),
+        fmt::format("{:.6g} s or more", least),
+        "a larger solver.cfl or solver.dt_max, slower particles, or a cohesive law that is less stiff", std::nullopt});
+}
+
 #define RIVEN_REPORT_TROUBLE(Real)                               \
   template void particle_left_grid(const State<Real, 2>&, long); \
   template void check_particles(const State<Real, 2>&);          \

@@ -13,6 +13,9 @@ template <class Real>
 template <class Real>
 void check_particles(const State<Real, 2>&);
 
+/// Throws Error (unstable): steps of less than `least` (s) would take a run nowhere.
+[[noreturn]] void time_stands_still(const Clock&, double least);
+
 template <class Real>
 long fastest_particle(const Particles<Real, 2>&);
 

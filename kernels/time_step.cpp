@@ -7,6 +7,7 @@
 #include "core/exec/parallel.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/law_state.hpp"
+#include "kernels/report_trouble.hpp"
 
 namespace riven {
 
@@ -70,6 +71,8 @@ void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
     c.dt = dt_max;
     c.limiter = "dt_max";
   }
+  if (const double least = 1e-15 * scene.end_time; c.dt < least)
+    time_stands_still(c, least);
 }
 
 void reduce_time_step(double factor, Clock& c) {

@@ -36,6 +36,13 @@ TEST(CommandLine, ASceneAloneIsToldHowToRun) {
   EXPECT_TRUE(says(scene, "try:     riven run plate.toml")) << scene.errors;
 }
 
+TEST(CommandLine, ATolerancePastTheWholeIsAskedForInPerCent) {
+  const sample::Folder folder;
+  const Outcome two = riven::riven("advise sent --within 2 -o x", folder);
+  EXPECT_EQ(two.code, 2);
+  EXPECT_TRUE(says(two, "did you mean '2%'?")) << two.errors;
+}
+
 TEST(CommandLine, MissingWordsOfACommandAreStillItsOwn) {
   const sample::Folder folder;
   const Outcome nothing = riven::riven("", folder), plan = riven::riven("plan", folder);

@@ -1,7 +1,9 @@
 // Each thing that can be wrong in a scene: the message names file, line and key, and says what was meant.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "tests/io/scene_text.hpp"
 
@@ -340,6 +342,20 @@ TEST(BadSceneParts, GrowthNeedsATip) {
     EXPECT_TRUE(t.where.starts_with("plate.toml:")) << Error(t).what();
     EXPECT_NE(t.what.find("has a tip in a body"), std::string::npos) << Error(t).what();
   }
+}
+
+/// However short its pieces are beside the cells.
+TEST(BadSceneParts, ACrackMayBeCutAsFinelyAsOneLikes) {
+  std::string straight, arc;
+  for (int k = 0; k <= 3000; ++k)
+    straight += fmt::format("[\"{:.17g} mm\", \"30 mm\"], ", 30 + 10. * k / 3000);
+  for (int k = 0; k <= 150; ++k) {
+    const double angle = std::numbers::pi * k / 150;
+    arc += fmt::format("[\"{:.17g} mm\", \"{:.17g} mm\"], ", 20 + std::cos(angle), 20 + std::sin(angle));
+  }
+  for (const std::string& points : {straight, arc, std::string{R"(["20 mm", "30 mm"], ["30 mm", "30 mm"],
+                                                                  ["30.002 mm", "30 mm"])"}})
+    read(fmt::format("{}[[crack]]\nname = \"fine\"\npoints = [{}]\n", good_scene, points));
 }
 
 TEST(BadSceneParts, ACrackMayCloseAnotherToARing) {

@@ -245,7 +245,7 @@ TEST(ReadScene, CracksFromAFile) {
   const auto folder = std::filesystem::temp_directory_path() / ("riven_cracks_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const auto put = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
-  put("plain.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,10\n\n30,30,31.5,32\n");
+  put("plain.csv", "\xEF\xBB\xBFx0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,10\n\n30,30,31.5,32\n");
   put("labelled.csv", "# ends\r\ncrack,x_start (mm),y_start (mm),x_end (mm),y_end (mm)\r\n7,10,10,20,10\r\n");
   put("outside.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20,10\n51,30,52,30\n");
   put("short.csv", "x0_mm,y0_mm,x1_mm,y1_mm\n10,10,20\n");
