@@ -429,6 +429,35 @@ TEST(GrowCracks, NewPointsKnowWhereTheyWereAtFirst) {
   EXPECT_NEAR(c.plane0[c.points() - 1].x, 10.1 + run.m.state.tips[1].length, 0.15);
 }
 
+/// A tip says when its contour of two cells to a side takes in another material, and is of that one once it lies in it;
+/// the points that it leaves know how dense the bodies beside them are.
+TEST(GrowCracks, SayThatTheyComeToAnotherMaterial) {
+  Scene scene = plate({crack("edge", {{-1, 8.2}, {6, 8.2}})}, 25);
+  scene.materials.push_back({"heavy", LawKind::linear_elastic, 1e6, 0.3, 8000});
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[0].region = Rectangle{{0, 0}, {12, 16}};
+  scene.bodies[1].region = Rectangle{{12, 0}, {24, 16}};
+  scene.bodies[1].name = "right";
+  scene.bodies[1].material = 1;
+  Driven run(scene, open);
+  const FractureReport& report = run.m.fracture;
+  while (report.mixed == 0 && run.end(0, true).x < 20)
+    run.steps(1);
+  EXPECT_NEAR(report.place[4].x, 10.25, 0.5) << "two cells before the first particles";
+  EXPECT_EQ(run.m.state.tips[0].material, 0);
+  while (run.end(0, true).x < 14)
+    run.steps(1);
+  EXPECT_EQ(run.m.state.tips[0].material, 1);
+  EXPECT_GT(report.mixed, 1);
+  const Cracks& c = run.m.state.cracks;
+  for (int k = 0; k < c.points(); ++k) {
+    const double x = c.plane0[k].x;
+    if (std::fabs(x - 12) > 0.3) {
+      EXPECT_EQ(c.density[k], (x < 12 ? Vec2{1000, 1000} : Vec2{8000, 8000})) << x;
+    }
+  }
+}
+
 TEST(GrowCracks, TheSameOnEverySpace) {
   std::vector<std::vector<Vec2>> first;
   for (const test::SpaceCase& where : test::space_cases()) {
