@@ -21,7 +21,9 @@ namespace {
 /// What nodes that may see cracks hold.
 struct NodeHolder {
   ListsView lists;
-  const int* tally;  ///< CrackFields, as all that follow
+  const int* start;        ///< Cracks
+  const EndOnCrack* ends;  ///< CrackFields; null where there are none
+  const int* tally;        ///< CrackFields, as all that follow
   NodeCracks* nodes;
   std::uint8_t *verdict, *held;
   TileTrace* tiles;
@@ -39,7 +41,7 @@ struct NodeHolder {
     now.sees = node.sees;
     now.third = node.third;
     bool changed = false;
-    int count = 0;
+    int count = 0, held_at[most_held] = {};
     for (int c = first; c < last; ++c) {
       const int above = 2 * c, below = above + 1;
       std::uint8_t means[2] = {fourth_crack, fourth_crack};
@@ -47,6 +49,7 @@ struct NodeHolder {
         const bool from_above = tally[above] >= tally[below];
         now.crack[count] = lists.candidate[c];
         now.side[count] = from_above ? Side::above : Side::below;
+        held_at[count] = c;
         means[from_above ? 0 : 1] = static_cast<std::uint8_t>(1 << count);
         means[from_above ? 1 : 0] = other_side;
         ++count;
@@ -56,6 +59,8 @@ struct NodeHolder {
         verdict[above + side] = means[side];
       }
     }
+    for (int k = 0; count > 1 && ends != nullptr && k < count; ++k)
+      look_behind(held_at[k], k, now);
     node = now;
     held[f] = static_cast<std::uint8_t>(count);
     if (changed)
@@ -66,6 +71,19 @@ struct NodeHolder {
   }
 
  private:
+  /// Sees whether the node lies behind a crack on which the one that it holds as its k-th, its candidate c, ends.
+  RIVEN_FN void look_behind(int c, int k, NodeCracks& node) const {
+    const int crack = lists.candidate[c], *segment = lists.node_segment + lists.segment_start[c],
+              *last = lists.node_segment + lists.segment_start[c + 1] - 1;
+    const bool sees[2] = {*segment == start[crack], *last + 2 == start[crack + 1]};
+    for (int end = 0; end < 2; ++end) {
+      const EndOnCrack& on = ends[2 * crack + end];
+      const int host = on.host < 0 || !sees[end] ? -1 : node.which(on.host);
+      if (host >= 0 && node.side[host] == on.from)
+        node.behind = static_cast<std::uint8_t>(1 + host + most_held * k);
+    }
+  }
+
   RIVEN_FN int crossings(int c) const { return tally[2 * c] + tally[2 * c + 1]; }
 
   /// The candidates of [first, last) by falling number of crossings, as many as a node can hold; returns how many.
@@ -245,6 +263,8 @@ Vec2 first_warning(const CrackFields& fields, const Particles<Real, 2>& particle
 void assign_nodes(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
   const ListsView lists = lists_view(lattice, fields);
   const NodeHolder holder{lists,
+                          exec::data(cracks.start),
+                          fields.ends.empty() ? nullptr : exec::data(std::as_const(fields.ends)),
                           exec::data(std::as_const(fields.tally)),
                           exec::data(fields.nodes),
                           exec::data(fields.verdict),

@@ -6,6 +6,9 @@
 // as none and are warned of (Nairn et al., appendix): 1, from the other side; 2, of a crack that the node does not
 // hold. The paper has two cracks at a node and allocates fields in order of arrival; up to two cracks this gives the
 // same fields, 1 and 2 possibly swapped.
+//
+// Of a node behind a crack on which another one ends that it holds, too, it is noted that it is so (beyond_end.hpp):
+// both fields before that crack meet the one behind.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/bodies.hpp"

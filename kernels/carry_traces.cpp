@@ -95,6 +95,7 @@ struct NodeCarrier {
       node.crack[k] = from.nodes[former].crack[k];
       node.side[k] = from.nodes[former].side[k];
     }
+    node.behind = from.nodes[former].behind;
     to.held[n] = from.held[former];
     const int was_first = was.candidate_start[former], was_last = was.candidate_start[former + 1];
     for (int e = first, o = was_first; e < last; ++e) {
@@ -107,6 +108,7 @@ struct NodeCarrier {
         same.any_gone(was.node_segment + was.segment_start[was_first],
                       was.node_segment + was.segment_start[was_last])) {
       turning.node(node.node);
+      recount[n] = 1;
       return;
     }
     to.clearance[n] = from.clearance[former];

@@ -77,7 +77,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   const double mass[2] = {double(motion.mass[slot[0]]), double(motion.mass[slot[1]])};
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return false;
-  const Meeting m = neighbour_meeting(n, {found.normals + index, nullptr}, laws, 0, 0, 1);
+  const Meeting m = meeting_across(n, {found.normals + index, nullptr}, laws, 0, 0, 1, 1);
   if (m.law.law == ContactLaw::ignored)
     return false;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};

@@ -42,10 +42,9 @@ RIVEN_INLINE HeldNormals held_normals(const NodeCracks& n, long index, const Nod
   return {two + index, cracks > 2 ? third + n.third : nullptr};
 }
 
-/// Fields f and f + 2^k, which meet across crack k alone.
-RIVEN_INLINE Meeting neighbour_meeting(const NodeCracks& n, HeldNormals w, const ContactSettings* laws, int k, int f,
-                                       double share) {
-  const int g = f + (1 << k);
+/// Fields f and g, which crosses crack k, too, and meets f across that.
+RIVEN_INLINE Meeting meeting_across(const NodeCracks& n, HeldNormals w, const ContactSettings* laws, int k, int f,
+                                    int g, double share) {
   const bool crossing_above = n.side[k] == Side::above;
   return {crossing_above ? g : f, crossing_above ? f : g, k, w.now(k), w.first(k), laws[n.crack[k]], share};
 }
@@ -90,6 +89,12 @@ RIVEN_INLINE bool meet_diagonally(int f, int g, const Present& present) {
   return true;
 }
 
+/// Whether the field g lies over the host from f, which is behind it, past the end of the crack that ends there.
+RIVEN_INLINE bool meet_over_host(const NodeCracks& n, int f, int g) {
+  const int across = n.host() + n.ending();
+  return (f & across) == 0 && g == f + across;
+}
+
 /// All meetings of a node's fields; `mass` is 0 where a field is absent.
 template <int cracks>
 RIVEN_INLINE Meetings<cracks> find_meetings(const NodeCracks& n, HeldNormals w, const double (&mass)[1 << cracks],
@@ -102,11 +107,15 @@ RIVEN_INLINE Meetings<cracks> find_meetings(const NodeCracks& n, HeldNormals w, 
       continue;
     for (int f = 0; f < fields; ++f)
       if (const int g = f + (1 << k); (f >> k & 1) == 0 && present(f) && present(g))
-        m.list[m.count++] = neighbour_meeting(n, w, laws, k, f, mass[f] + mass[g]);
+        m.list[m.count++] = meeting_across(n, w, laws, k, f, g, mass[f] + mass[g]);
+    for (int f = 0; f < fields && n.behind != 0 && n.host() == 1 << k; ++f)
+      if (const int g = f + n.host() + n.ending();
+          meet_over_host(n, f, g) && present(f) && present(g) && !present(f + n.ending()))
+        m.list[m.count++] = meeting_across(n, w, laws, k, f, g, mass[f] + mass[g]);
   }
   for (int f = 0; f < fields && n.crack[1] >= 0; ++f)
     for (int g = f + 1; g < fields; ++g)
-      if (meet_diagonally<cracks>(f, g, present))
+      if (!(n.behind != 0 && meet_over_host(n, f, g)) && meet_diagonally<cracks>(f, g, present))
         m.list[m.count++] = diagonal_meeting<cracks>(n, w, laws, f, g, mass[f] + mass[g]);
   double total[cracks] = {};
   for (const Meeting& one : m)

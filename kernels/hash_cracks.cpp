@@ -1,11 +1,14 @@
 #include "kernels/hash_cracks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/exec/atomic.hpp"
 #include "core/exec/scan.hpp"
+#include "core/fracture/beyond_end.hpp"
 #include "core/fracture/crack_path.hpp"
+#include "core/fracture/crossing.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/cells_around.hpp"
 #include "kernels/segment_bins.hpp"
@@ -185,6 +188,35 @@ void list_candidates(const exec::Space& space, const Lattice& lattice, const Cra
   fields.third_normals.renew(all.thirds);
 }
 
+/// The ends that lie on other cracks.
+void list_ends(const Lattice& lattice, const Cracks& cracks, CrackFields& fields) {
+  const Vec2* const at = std::as_const(fields.hashed).data();
+  fields.ends.clear();
+  for (const Junction& j : cracks.junctions) {
+    const int a = cracks.end_point(j.other, false) + j.segment, end = cracks.end_point(j.crack, j.last);
+    const auto at_end = [&](bool last) {
+      return norm(at[cracks.end_point(j.other, last)] - at[end]) < 1e-3 * lattice.h;
+    };
+    const int from = orientation(at[a], at[a + 1], at[cracks.next_to_end(j.crack, j.last)]);
+    if (j.other == j.crack || from == 0 || at_end(false) || at_end(true))
+      continue;
+    if (fields.ends.empty()) {
+      fields.ends.resize(2 * cracks.count());
+      std::fill(fields.ends.begin(), fields.ends.end(), EndOnCrack{});
+    }
+    fields.ends[2 * j.crack + j.last] = {j.other, from > 0 ? Side::above : Side::below};
+  }
+}
+
+/// Where paths saw the points when the hash was made, with those ends that they see on other cracks as far beyond.
+exec::Array<Vec2> points_seen(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
+  exec::Array<Vec2> points = fields.hashed;
+  each_end_on_crack(cracks, fields, [&](int end, bool last) {
+    points[end] = BeyondEnd(fields.hashed.data() + end, last, seen_beyond * lattice.h).far;
+  });
+  return points;
+}
+
 }  // namespace
 
 template <class Shape>
@@ -193,11 +225,13 @@ void list_segments(const exec::Space& space, const Lattice& lattice, const Crack
   // with every shape function; those that end at one node start at most one and a half cells away from it
   constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
   constexpr Reach node{-1.5, 1.5, 0};
-  fill_bins(space, lattice, cracks, fields.hashed, cell,
+  list_ends(lattice, cracks, fields);
+  const exec::Array<Vec2> points = points_seen(lattice, cracks, fields);
+  fill_bins(space, lattice, cracks, points, cell,
             {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
   mark_tiles(space, lattice, cracks, fields);
   exec::Array<int> flagged, start;
-  fill_bins(space, lattice, cracks, fields.hashed, node, {fields.node_index, flagged, start, fields.node_segment});
+  fill_bins(space, lattice, cracks, points, node, {fields.node_index, flagged, start, fields.node_segment});
   list_candidates(space, lattice, cracks, flagged, start, fields);
 
   fields.tally.renew(2 * fields.candidate.size());

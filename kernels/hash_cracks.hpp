@@ -15,6 +15,14 @@ namespace riven {
 /// True when cracks have grown, or some crack point has moved by more than the margin, since the last hash.
 bool hash_due(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, const CrackFields& fields);
 
+/// f(point, last) for the ends that lie on other cracks.
+template <class F>
+void each_end_on_crack(const Cracks& cracks, const CrackFields& fields, const F& f) {
+  for (long e = 0; e < fields.ends.size(); ++e)
+    if (const bool last = e % 2 != 0; fields.ends.data()[e].host >= 0)
+      f(cracks.end_point(static_cast<int>(e / 2), last), last);
+}
+
 inline namespace RIVEN_SIDE {
 
 /// Notes where the crack points are, and remakes all lists of `fields` down to `extra_slots`. Shape: Linear, UGimp or
@@ -22,7 +30,7 @@ inline namespace RIVEN_SIDE {
 template <class Shape>
 void hash_cracks(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields);
 
-/// The latter alone, with the points where CrackFields::hashed has them: the lists are a function of these, not of
+/// Remakes the lists alone, with the points where CrackFields::hashed has them: they are a function of these, not of
 /// where the cracks are by now.
 template <class Shape>
 void list_segments(const exec::Space& space, const Lattice& lattice, const Cracks& cracks, CrackFields& fields);

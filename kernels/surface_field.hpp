@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/exec/bits.hpp"
+#include "core/fracture/beyond_end.hpp"
 #include "core/fracture/crossing.hpp"
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
@@ -28,6 +29,7 @@ struct SurfaceView {
   const Vec2* plane;         ///< [points]
   const Vec2* traced;        ///< [points] as paths see them
   const std::uint8_t* open;  ///< [2 cracks] 1 for tips
+  const EndOnCrack* ends;    ///< CrackFields; null where there are none
 };
 
 inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, const CrackFields& fields) {
@@ -41,7 +43,8 @@ inline SurfaceView surface_view(const Lattice& lattice, const Cracks& cracks, co
           exec::data(cracks.start),
           exec::data(cracks.plane),
           exec::data(fields.traced),
-          exec::data(cracks.open)};
+          exec::data(cracks.open),
+          fields.ends.empty() ? nullptr : exec::data(fields.ends)};
 }
 
 /// A crack's point and the crack around it.
@@ -128,8 +131,8 @@ struct SurfacePoint {
 
 namespace detail {
 
-/// The side from which the line from `from` to n crosses the segments [at, end), all of one crack.
-inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, int at, int end) {
+/// How the line from `from` to n crosses the segments [at, end), all of one crack.
+inline RIVEN_FN CrossingSum crossings(const SurfaceView& view, Vec2 from, Vec2 n, int at, int end) {
   const int crack = view.crack[view.cell_segment[at]];
   const int first = view.start[crack], last = view.start[crack + 1] - 1;
   const double left = std::min(from.x, n.x), right = std::max(from.x, n.x);
@@ -142,7 +145,25 @@ inline RIVEN_FN Side side_crossed(const SurfaceView& view, Vec2 from, Vec2 n, in
     if (!beside && !((a.y < lower && b.y < lower) || (a.y > upper && b.y > upper)))
       sum.add(crossing(from, n, view.traced + k, k == first, k + 1 == last, 0));  // ends on cracks move with both sides
   }
-  return sum.side();
+  return sum;
+}
+
+/// An end of another crack.
+struct OtherEnd {
+  int point = -1;     ///< -1 where there is none
+  bool last = false;  ///< which end
+  Side from = Side::none;
+};
+
+/// The end in sight of another crack, of segments [at, end), that lies on the point's own crack.
+inline RIVEN_FN OtherEnd end_on_own(const SurfaceView& view, const SurfacePoint& s, int at, int end) {
+  const int crack = view.crack[view.cell_segment[at]];
+  const int points[2] = {view.start[crack], view.start[crack + 1] - 1};
+  const bool sees[2] = {view.cell_segment[at] == points[0], view.cell_segment[end - 1] + 1 == points[1]};
+  for (int last = 0; view.ends != nullptr && last < 2; ++last)
+    if (const EndOnCrack& on = view.ends[2 * crack + last]; sees[last] && on.host == s.own.crack)
+      return {points[last], last != 0, on.from};
+  return {};
 }
 
 /// Which of the segments in sight are the crack's.
@@ -176,7 +197,7 @@ RIVEN_INLINE bool crosses_own(const SurfaceView& view, SurfacePoint& s, Vec2 n) 
     return (off > 0) != (s.side == Side::above) && !(dot(r, s.own.beyond) > 0);
   s.look(view);
   const SegmentRange own = segments_of(view, s, s.own.crack);
-  return own.at < own.end && side_crossed(view, s.own.x + aside(view, s), n, own.at, own.end) != Side::none;
+  return own.at < own.end && crossings(view, s.own.x + aside(view, s), n, own.at, own.end).side() != Side::none;
 }
 
 /// Adds what the other cracks in sight make of a field, or -1. Where a crack goes on as another one, what does not
@@ -185,11 +206,21 @@ inline RIVEN_FN int cross_others(const SurfaceView& view, SurfacePoint& s, Vec2 
   s.look(view);
   const bool on_crack = s.own.back.x != 0 || s.own.back.y != 0;
   const Vec2 from = on_crack ? s.x + s.own.back + aside(view, s) : s.x;
+  const int own = held.which(s.own.crack);
+  const bool behind = own >= 0 && held.side[own] == s.side;  // the own crack, seen from the surface
   for (int at = s.first, end = at; at < s.last; at = end) {
     const int crack = view.crack[view.cell_segment[at]];
     while (end < s.last && view.crack[view.cell_segment[end]] == crack)
       ++end;
-    const Side side = crack == s.own.crack ? Side::none : side_crossed(view, from, n, at, end);
+    if (crack == s.own.crack)
+      continue;
+    const OtherEnd on_own = end_on_own(view, s, at, end);
+    // surfaces behind their own crack lie beyond what ends on it, wherever they have moved
+    const Vec2 start = on_own.point >= 0 && on_own.from != s.side ? s.own.x + aside(view, s) : from;
+    CrossingSum sum = crossings(view, start, n, at, end);
+    if (behind && on_own.point >= 0 && on_own.from == s.side)
+      sum.add(BeyondEnd(view.traced + on_own.point, on_own.last, crossed_beyond * view.lattice.h).crossed(start, n));
+    const Side side = sum.side();
     if (side == Side::none)
       continue;
     const int m = held.which(crack);

@@ -129,6 +129,7 @@ void trace_crossings(const exec::Space& space, const Particles<Real, 2>& particl
                                  exec::data(cracks.crack),
                                  exec::data(cracks.start),
                                  exec::data(std::as_const(fields.traced)),
+                                 fields.ends.empty() ? nullptr : exec::data(std::as_const(fields.ends)),
                                  exec::data(std::as_const(fields.crack_move)),
                                  exec::data(std::as_const(fields.clearance)),
                                  exec::data(std::as_const(fields.turned)),

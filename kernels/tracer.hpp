@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/exec/bits.hpp"
+#include "core/fracture/beyond_end.hpp"
 #include "core/fracture/crossing.hpp"
 #include "core/math/shape.hpp"
 #include "core/state/bodies.hpp"
@@ -28,6 +29,7 @@ struct TraceInput {
   const double* tile_move;   ///< [tiles] m, how far particles moved along an axis since the trace before; may be null
   const int *crack, *start;  ///< Cracks
   const Vec2* traced;        ///< [points] CrackFields
+  const EndOnCrack* ends;    ///< CrackFields; null where there are none
   const double* crack_move;  ///< [cracks] CrackFields
   const NodeClearance* clearance;  ///< [flagged] CrackFields
   const int* turned;               ///< [nodes] CrackFields
@@ -161,21 +163,28 @@ class Tracer {
     constexpr int before = width == 3;
     const int nx = lattice().nx, seen = in_.lists.cell_index[m.cell];
     const Paths<Shape> paths(m.x, m.cell % nx - before, m.cell / nx - before, lattice(), inv_h_);
-    const int* segment = in_.lists.cell_segment + in_.lists.cell_start[seen];
-    const int* const last = in_.lists.cell_segment + in_.lists.cell_start[seen + 1];
+    in_sight_ = {in_.lists.cell_segment + in_.lists.cell_start[seen],
+                 in_.lists.cell_start[seen + 1] - in_.lists.cell_start[seen]};
+    const int* segment = in_sight_.segment;
+    const int* const last = segment + in_sight_.count;
     m.weighed = nodes_weighed(p);
     weighed_ = m.weighed;
     take_node_clearance(paths);
     for (Floats& f : path_clear2_)
       f = Floats{} + 1e6f;
     while (segment < last) {
-      const int crack = in_.crack[*segment], end = in_.start[crack + 1];
-      int count = static_cast<int>(last - segment);
-      if (segment[count - 1] >= end)
-        count = static_cast<int>(std::lower_bound(segment, last, end) - segment);
-      trace_crack(paths, crack, {segment, count});
-      segment += count;
+      const int crack = in_.crack[*segment];
+      const SegmentList list = part_of(crack, segment);
+      trace_crack(paths, crack, list);
+      segment += list.count;
     }
+  }
+
+  /// The segments in sight of one crack, of which `first` is the first.
+  RIVEN_FN SegmentList part_of(int crack, const int* first) const {
+    const int *const last = in_sight_.segment + in_sight_.count, end = in_.start[crack + 1];
+    const int count = static_cast<int>(last - first);
+    return {first, first[count - 1] < end ? count : static_cast<int>(std::lower_bound(first, last, end) - first)};
   }
 
   RIVEN_FN void trace_crack(const Paths<Shape>& paths, int crack, SegmentList list) {
@@ -190,23 +199,63 @@ class Tracer {
         if (const auto some = static_cast<std::uint32_t>(exec::lane(bits[k / float_lanes], k % float_lanes)))
           test(paths, k, crack, part, some, sum[k]);
     }
+    if (in_.ends != nullptr) {
+      if (list.segment[0] == in_.start[crack])
+        trace_beyond(paths, crack, false, sum);
+      if (list.segment[list.count - 1] + 2 == in_.start[crack + 1])
+        trace_beyond(paths, crack, true, sum);
+    }
     for (int k = 0; k < nodes; ++k)
       if (const Side side = sum[k].side(); side != Side::none)
         record(paths, crack, k, side == Side::below);
     take_crack_clearance(paths, crack, list);
   }
 
-  RIVEN_FN void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits,
-                     CrossingSum& sum) {
-    const int first = in_.start[crack], last = in_.start[crack + 1] - 1;
-    for (; bits; bits &= bits - 1) {
-      const int s = list.segment[exec::lowest_bit(bits)];
-      sum.add(crossing(paths.particle, node(paths, k), in_.traced + s, s == first, s + 1 == last));
+  /// Adds the crossings of a crack beyond an end that lies on another crack, by paths that cross that one from where
+  /// the crack lies (beyond_end.hpp).
+  RIVEN_FN void trace_beyond(const Paths<Shape>& paths, int crack, bool last, CrossingSum* sum) {
+    const EndOnCrack end = in_.ends[2 * crack + last];
+    if (end.host < 0)
+      return;
+    const int* const stop = in_sight_.segment + in_sight_.count;
+    const int* const first = std::lower_bound(in_sight_.segment, stop, in_.start[end.host]);
+    if (first == stop || in_.crack[*first] != end.host)
+      return;
+    const SegmentList host = part_of(end.host, first);
+    const BeyondEnd line(in_.traced + (last ? in_.start[crack + 1] - 1 : in_.start[crack]), last,
+                         crossed_beyond * lattice().h);
+    take_line_clearance(line, paths.particle);
+    for (int k = 0; k < nodes; ++k) {
+      take_line_clearance(line, node(paths, k));
+      const int crossed = line.crossed(paths.particle, node(paths, k));
+      if (crossed == 0 || !sees(flagged(paths, k), crack))
+        continue;
+      CrossingSum of_host;
+      for (int s = 0; s < host.count; ++s)
+        add_crossing(paths, k, end.host, host.segment[s], of_host);
+      if (of_host.side() == end.from)
+        sum[k].add(crossed);
     }
   }
 
+  RIVEN_FN void take_line_clearance(const BeyondEnd& line, Vec2 x) {
+    const double clear = line_clearance(x, line.before, line.end);
+    clear2_ = std::min(clear2_, clear * clear);
+  }
+
+  RIVEN_FN void test(const Paths<Shape>& paths, int k, int crack, SegmentList list, std::uint32_t bits,
+                     CrossingSum& sum) {
+    for (; bits; bits &= bits - 1)
+      add_crossing(paths, k, crack, list.segment[exec::lowest_bit(bits)], sum);
+  }
+
+  RIVEN_FN void add_crossing(const Paths<Shape>& paths, int k, int crack, int segment, CrossingSum& sum) const {
+    sum.add(crossing(paths.particle, node(paths, k), in_.traced + segment, segment == in_.start[crack],
+                     segment + 2 == in_.start[crack + 1]));
+  }
+
   RIVEN_FN void record(const Paths<Shape>& paths, int crack, int k, bool below) {
-    const int f = in_.lists.node_index[static_cast<long>(paths.j + k / width) * lattice().nx + paths.i + k % width];
+    const int f = flagged(paths, k);
     int at = in_.lists.candidate_start[f];
     while (in_.lists.candidate[at] != crack)
       ++at;
@@ -227,6 +276,17 @@ class Tracer {
     return all;
   }
 
+  /// Number of a node among those that may see cracks, or -1.
+  RIVEN_FN int flagged(const Paths<Shape>& paths, int k) const {
+    return in_.lists.node_index[static_cast<long>(paths.j + k / width) * lattice().nx + paths.i + k % width];
+  }
+  /// Whether that node may see the crack. One that does not has no particles on both sides of it.
+  RIVEN_FN bool sees(int f, int crack) const {
+    const int* const list = in_.lists.candidate;
+    return f >= 0 &&
+           std::binary_search(list + in_.lists.candidate_start[f], list + in_.lists.candidate_start[f + 1], crack);
+  }
+
   RIVEN_FN Vec2 node(const Paths<Shape>& paths, int k) const {
     return lattice().position(paths.i + k % width, paths.j + k / width);
   }
@@ -235,7 +295,7 @@ class Tracer {
   /// node lies: beyond that line it would cross from the other side.
   RIVEN_FN void take_node_clearance(const Paths<Shape>& paths) {
     for (int k = 0; k < nodes; ++k) {
-      const int f = in_.lists.node_index[static_cast<long>(paths.j + k / width) * lattice().nx + paths.i + k % width];
+      const int f = flagged(paths, k);
       if (f < 0)
         continue;
       const NodeClearance& c = in_.clearance[f];
@@ -276,6 +336,7 @@ class Tracer {
   CrossingRecords records_;
   double inv_h_, rounding_;
   TileTrace* tile_ = nullptr;   ///< of the particle in hand
+  SegmentList in_sight_{};      ///< of it
   double clear2_ = 0;           ///< squared clearance of the particle in hand
   Floats path_clear2_[groups];  ///< squared distances in cells of tips from its paths
   unsigned weighed_ = 0;        ///< nodes on which the particle in hand has a weight

@@ -22,9 +22,15 @@ struct alignas(32) NodeCracks {
   int third = -1;  ///< number among the nodes that may see three cracks or more, or -1
   int crack[most_held] = {-1, -1, -1};
   Side side[most_held] = {Side::none, Side::none, Side::none};
+  /// 0, or, of a node behind a crack on which another one ends (beyond_end.hpp), 1 + the former's place in `crack` + 3
+  /// times the latter's.
+  std::uint8_t behind = 0;
 
   /// Which of the held cracks is this one, or -1.
   RIVEN_INLINE int which(int c) const { return crack[0] == c ? 0 : crack[1] == c ? 1 : crack[2] == c ? 2 : -1; }
+  /// Bits of the fields, if it lies behind one: of the host, and of the crack that ends on it.
+  RIVEN_INLINE int host() const { return 1 << (behind - 1) % most_held; }
+  RIVEN_INLINE int ending() const { return 1 << (behind - 1) / most_held; }
   /// Velocity fields for which the node has slots.
   RIVEN_INLINE int room() const { return sees >= 0 ? 2 : sees == -1 ? 4 : 8; }
   /// Those that it uses where it holds cracks.
@@ -101,6 +107,12 @@ struct TileTrace {
   int warnings[2] = {0, 0};
 };
 
+/// The crack on which an end of another one lies, between its own ends, and the side from which that one comes.
+struct EndOnCrack {
+  int host = -1;
+  Side from = Side::none;
+};
+
 /// How a point bounds the segments that it ends.
 enum class PointKind : std::uint8_t { joint, end, open_end };
 
@@ -147,6 +159,8 @@ struct CrackFields : CrackLists {
   exec::Array<ThirdNormal> third_normals;      ///< [nodes that may see three cracks or more] see NodeCracks::third
   exec::Array<int> extra;                      ///< [nodes] see grid.hpp
   int extra_slots = 0;
+
+  exec::Array<EndOnCrack> ends;  ///< [2 cracks] first and last ends; empty where none lies on a crack
 
   CrackLists former;      ///< as the last trace knew them
   bool relisted = false;  ///< the lists are others since then

@@ -17,7 +17,7 @@ using namespace driven_growth;
 /// particles, counts of nodes, and what these mean.
 TEST(CarryTraces, LeavesFieldsAsTheyWouldBeFoundAfresh) {
   Driven run(plate({crack("edge", {{-1, 8}, {6, 8}}), crack("in its way", {{14, 4}, {17, 9}})}), open);
-  long crossing = 0, carried = 0;
+  long crossing = 0, carried = 0, behind = 0;
   for (int n = 0; n < 200; ++n) {
     const auto& s = run.m.state;
     run.steps(1);
@@ -36,6 +36,10 @@ TEST(CarryTraces, LeavesFieldsAsTheyWouldBeFoundAfresh) {
     if (!grown)
       continue;  // the lists were made at other times
     carried += kept.order == s.fields.order;
+    for (long k = 0; k < fresh.nodes.size(); ++k) {
+      ASSERT_EQ(kept.nodes[k].behind, fresh.nodes[k].behind) << n;
+      behind += fresh.nodes[k].behind != 0;
+    }
     ASSERT_EQ(kept.tally.size(), fresh.tally.size()) << n;
     for (long e = 0; e < fresh.tally.size(); ++e) {
       ASSERT_EQ(kept.tally[e], fresh.tally[e]) << n;
@@ -44,6 +48,7 @@ TEST(CarryTraces, LeavesFieldsAsTheyWouldBeFoundAfresh) {
   }
   EXPECT_GT(crossing, 1000);
   EXPECT_GT(carried, 20);
+  EXPECT_GT(behind, 0);  // once the one has joined the other
 }
 
 /// Growth has those particles traced again that are near the new segment.

@@ -82,7 +82,7 @@ class NormalForces {
       if (f.held[i] != 1)
         continue;
       const Meeting meeting =
-          neighbour_meeting(n, {f.normals.data() + i, nullptr}, m.state.cracks.contact.data(), 0, 0, 1);
+          meeting_across(n, {f.normals.data() + i, nullptr}, m.state.cracks.contact.data(), 0, 0, 1, 1);
       const long slot = meeting.below == 0 ? n.node : long{g.lattice.nodes()} + n.extra;
       if (g.mass[slot] > 0)
         p[static_cast<size_t>(i)] = g.mass[slot] * dot(meeting.normal, Vec2{g.q[4 * slot], g.q[4 * slot + 1]});
