@@ -3,15 +3,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cases/commands.hpp"
 #include "core/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/suggest.hpp"
 
 namespace {
@@ -55,6 +58,12 @@ void wait_briefly(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
+/// Throws Error (file) where what was printed could not be written, as to a full disk.
+void finish_printing() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    riven::fail_file("standard output", "write", errno);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -72,6 +81,7 @@ int main(int argc, char** argv) {
   riven::add_advise(app);
   try {
     obey(app, argc, argv);
+    finish_printing();
     return static_cast<int>(Exit::done);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) ? static_cast<int>(Exit::bad_input) : static_cast<int>(Exit::done);
@@ -81,6 +91,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "riven: out of memory\n  try:     larger cells, or fewer particles_per_cell\n");
     return static_cast<int>(Exit::internal);
+  } catch (const std::system_error& e) {
+    fmt::print(stderr, "riven: {}\n", e.what());
+    return static_cast<int>(Exit::file);
   } catch (const std::exception& e) {
     fmt::print(stderr, "riven: internal error: {}\n", e.what());
     return static_cast<int>(Exit::internal);

@@ -46,7 +46,8 @@ fs::path folder_of(Shipped kind) {
 
 std::optional<fs::path> shipped_file(Shipped kind, const std::string& name) {
   const fs::path file = folder_of(kind) / (name + ".toml");
-  if (name.find('/') == std::string::npos && fs::exists(file))
+  std::error_code error;
+  if (name.find('/') == std::string::npos && fs::exists(file, error))
     return file;
   return std::nullopt;
 }
@@ -61,21 +62,25 @@ std::vector<std::string> shipped_names(Shipped kind) {
 }
 
 std::string find_file(Shipped kind, const std::string& name) {
-  const bool folder = fs::is_directory(name);
-  if (!folder && fs::exists(name))
+  std::error_code error;
+  const bool folder = fs::is_directory(name, error);
+  if (!folder && fs::exists(name, error))
     return name;
   // results of an earlier run may lie in a folder of that name
   if (const std::optional<fs::path> shipped = shipped_file(kind, name))
     return shipped->string();
   if (folder)
     return name;
-  const std::string close = nearest(name, shipped_names(kind));
   const bool scene = kind == Shipped::scene;
+  const std::string close = nearest(name, shipped_names(kind));
+  std::string hint = close.empty() ? "" : "did you mean '" + close + "'?";
+  if (shipped_file(scene ? Shipped::study : Shipped::scene, name))
+    hint = fmt::format("{} is a {}: riven {} {}", name, scene ? "study" : "scene", scene ? "study" : "run", name);
   fail({Exit::bad_input, fmt::format("there is no such file and no shipped {} of that name", scene ? "scene" : "study"),
         "", name,
         scene ? "a .toml file, or a name that `riven cases` lists"
               : "a .toml file, or a name that `riven study --list` lists",
-        close.empty() ? "" : "did you mean '" + close + "'?"});
+        std::move(hint)});
 }
 
 double parse_tolerance(const std::string& text) {

@@ -97,11 +97,6 @@ void check_conditions(const Scene& s) {
 
 }  // namespace
 
-std::string place(const Scene& s, const std::string& key) {
-  const auto found = s.places.find(key);
-  return found != s.places.end() ? found->second : s.source_path.empty() ? key : s.source_path + ": " + key;
-}
-
 void check_scene(const Scene& s) {
   check_names(s, s.materials, "material");
   check_names(s, s.bodies, "body");

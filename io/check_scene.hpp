@@ -11,7 +11,4 @@ namespace riven {
 /// without length or outside every body, interfaces without stiffness.
 void check_scene(const Scene& s);
 
-/// Where `key` or a named part ("crack left") was written; itself when the scene was not read from a file.
-std::string place(const Scene& s, const std::string& key);
-
 }  // namespace riven

@@ -35,6 +35,13 @@ nlohmann::json summary_of(const fs::path& folder) {
   return summary.is_object() ? std::move(summary) : nlohmann::json::object();
 }
 
+/// Is it a table of a run, or one that a killed run has left empty?
+bool is_table(const fs::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  return !std::getline(in, line) || line.starts_with("time [s],");
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::equivalent(a, b, error);
@@ -44,6 +51,10 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void refuse_to_remove_results(const fs::path& folder, const std::string& scene) {
   const nlohmann::json summary = summary_of(folder);
+  for (const char* name : {"history.csv", "events.csv"})
+    if (!is_table(folder / name))
+      fail({Exit::file, "this folder holds a file of this name that no run has written", (folder / name).string(), "",
+            "a folder that is new, or holds results", "-o names another folder; --overwrite removes what is there"});
   const std::string status = summary.value("status", "interrupted"), there = summary.value("scene", scene);
   std::error_code error;
   if (status == "interrupted" && fs::exists(folder / newest, error))

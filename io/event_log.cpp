@@ -15,7 +15,8 @@ namespace riven {
 namespace {
 
 constexpr std::string_view column_names =
-    "time [s],step,crack,end,event,x [m],y [m],other crack,K_I [Pa m^0.5],K_II [Pa m^0.5],J [J/m^2],speed [m/s]\n";
+    "time [s],step,crack,end,event,x [m],y [m],other crack,K_I [Pa m^0.5],K_II [Pa m^0.5],J [J/m^2],speed [m/s],load "
+    "[1]\n";
 
 const char* name(CrackEvent::Kind kind) {
   switch (kind) {
@@ -40,9 +41,9 @@ std::string line(const CrackEvent& e, const Cracks& cracks) {
   const auto crack = [&](int c) {
     return c < 0 ? std::string() : csv_field(cracks.names[static_cast<std::size_t>(c)]);
   };
-  return fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
+  return fmt::format("{:.17g},{},{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", e.time, e.step,
                      crack(e.crack), at_an_end(e.kind) ? end_name(e.last) : "", name(e.kind), e.place.x, e.place.y,
-                     crack(e.other), e.K_I, e.K_II, e.J, e.speed);
+                     crack(e.other), e.K_I, e.K_II, e.J, e.speed, e.load);
 }
 
 }  // namespace

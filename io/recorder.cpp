@@ -1,7 +1,9 @@
 #include "io/recorder.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/scene/names.hpp"
 #include "io/tip_report.hpp"
 
@@ -43,7 +45,7 @@ void Recorder<Real>::row() {
     v.insert(v.end(), {o.travel.x, o.travel.y, o.mean.value.x, o.mean.value.y});
   if (m_.plan.growth)
     v.push_back(e.fracture);
-  add_tip_values(s.tips, s.cracks, v);
+  add_tip_values(m_.scene, s.tips, s.cracks, v);
   for (const std::vector<Tip>& reading : s.readings)
     add_reading_values(reading, v);
   for (const double q : probes_.read(m_))
@@ -95,6 +97,10 @@ std::vector<HistoryColumn> Recorder<Real>::columns() const {
   for (const FractureReading& r : m_.scene.readings)
     add(reading_columns(r, m_.state.tips, m_.state.cracks));
   add(probes_.columns());
+  for (auto one = c.begin(); one != c.end(); ++one)
+    if (std::any_of(c.begin(), one, [&](const HistoryColumn& other) { return other.name == one->name; }))
+      fail({Exit::bad_input, "two columns of history.csv would have one name", place(m_.scene, "probe " + one->name),
+            one->name, "a name of its own", "another name for the probe"});
   return c;
 }
 

@@ -73,10 +73,10 @@ class Run {
  private:
   /// Opens the files of results with what the run has so far; what is in them beyond that is taken away.
   void open_results() {
+    record_.emplace(options_.folder, m_, probes_, so_far_.history);
     if (!options_.restart)  // a summary is of a run that has ended: one that is killed leaves none
       std::filesystem::remove(options_.folder / "summary.json");
     frames_.emplace(options_.folder, m_.scene, so_far_.frames);
-    record_.emplace(options_.folder, m_, probes_, so_far_.history);
     so_far_.history.clear();  // is in the file, and may be large
     if (m_.plan.growth || m_.plan.contact_waits || m_.scene.limits.retries > 0)
       events_.emplace(options_.folder / "events.csv", m_.state.events, m_.state.cracks);

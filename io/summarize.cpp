@@ -73,7 +73,7 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
       const Monitor& watched = monitor(s.monitors, which);
       out.watched.push_back({std::string(name), watched.worst, text_of(which).unit, watched.place});
     }
-  out.tips = summarize_tips(s.tips, s.cracks);
+  out.tips = summarize_tips(m.scene, s.tips, s.cracks);
   out.cracks = summarize_cracks(s.cracks, s.tips);
   for (const ConstraintOwner& o : s.constraints.owners)
     out.reactions.push_back({o.name, o.mean.value});

@@ -127,7 +127,8 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
                 {"J", number(t.J)},         {"J1", number(t.J1)},     {"J2", number(t.J2)},
                 {"K_I", number(t.K_I)},     {"K_II", number(t.K_II)}, {"O_I", number(t.O_I)},
                 {"O_II", number(t.O_II)},   {"M_I", number(t.M_I)},   {"M_II", number(t.M_II)},
-                {"speed", number(t.speed)}, {"contour", t.contour},   {"adapted", t.adapted}};
+                {"speed", number(t.speed)}, {"load", number(t.load)}, {"contour", t.contour},
+                {"adapted", t.adapted}};
   });
   j["probes"] = by_name(s.probes, &Summary::Value::name, [](const Summary::Value& v) {
     return Json{{"value", number(v.value)}, {"unit", v.unit}};

@@ -50,6 +50,7 @@ struct Summary {
     double O_I = 0, O_II = 0;  ///< J shared out by the opening of the crack
     double M_I = 0, M_II = 0;  ///< by the interaction integral
     double speed = 0;
+    double load = 0;       ///< how near it is to growth (growth_load); 0 where it does not grow
     std::string contour;   ///< "4 x 4 cells"; empty before the first evaluation
     bool adapted = false;  ///< the contour leaves out the tip of another crack, or a bend with pressed faces
   };

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/fracture/growth.hpp"
+#include "core/state/make_tips.hpp"
+
 namespace riven {
 
 namespace {
@@ -14,6 +17,11 @@ std::size_t shown_tips(const std::vector<Tip>& tips) {
 
 std::string name_of(const Tip& tip, const Cracks& cracks) {
   return cracks.names[static_cast<std::size_t>(tip.crack)] + " " + end_name(tip.last) + " ";
+}
+
+/// How near a tip is to growth; 0 where there is none any more.
+double load_of(const Scene& scene, const Tip& t) {
+  return t.open && t.grows ? growth_load(*growth_rule(scene, t.crack), t) : 0;
 }
 
 }  // namespace
@@ -29,15 +37,19 @@ std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Crack
                                    {tip + "K_I", "Pa m^0.5"},
                                    {tip + "K_II", "Pa m^0.5"},
                                    {tip + "speed", "m/s"}});
+    if (tips[i].grows)
+      columns.push_back({tip + "load", ""});
   }
   return columns;
 }
 
-void add_tip_values(const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row) {
+void add_tip_values(const Scene& scene, const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row) {
   for (std::size_t i = 0; i < shown_tips(tips); ++i) {
     const Tip& t = tips[i];
     const Vec2 x = cracks.plane[cracks.end_point(t.crack, t.last)];
     row.insert(row.end(), {x.x, x.y, t.length, t.J, t.K_I, t.K_II, t.speed});
+    if (t.grows)
+      row.push_back(load_of(scene, t));
   }
 }
 
@@ -56,7 +68,7 @@ void add_reading_values(const std::vector<Tip>& tips, std::vector<double>& row) 
     row.insert(row.end(), {tips[i].J, tips[i].K_I, tips[i].K_II});
 }
 
-std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cracks& cracks) {
+std::vector<Summary::Tip> summarize_tips(const Scene& scene, const std::vector<Tip>& tips, const Cracks& cracks) {
   std::vector<Summary::Tip> list;
   for (const Tip& t : tips) {
     const Vec2 x = cracks.plane[cracks.end_point(t.crack, t.last)];
@@ -77,6 +89,7 @@ std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cra
     s.M_I = t.M_I;
     s.M_II = t.M_II;
     s.speed = t.speed;
+    s.load = load_of(scene, t);
     if (t.step >= 0)
       s.contour = fmt::format("{:.3g} x {:.3g} cells", t.reach[0] + t.reach[2], t.reach[1] + t.reach[3]);
     s.adapted = t.adapted;

@@ -19,13 +19,13 @@ inline const char* end_name(bool last) {
 
 std::vector<HistoryColumn> tip_columns(const std::vector<Tip>& tips, const Cracks& cracks);
 /// What the columns say now.
-void add_tip_values(const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row);
+void add_tip_values(const Scene& scene, const std::vector<Tip>& tips, const Cracks& cracks, std::vector<double>& row);
 
 /// J and K of one of the scene's readings: "crack last NAME J".
 std::vector<HistoryColumn> reading_columns(const FractureReading& reading, const std::vector<Tip>& tips,
                                            const Cracks& cracks);
 void add_reading_values(const std::vector<Tip>& tips, std::vector<double>& row);
 
-std::vector<Summary::Tip> summarize_tips(const std::vector<Tip>& tips, const Cracks& cracks);
+std::vector<Summary::Tip> summarize_tips(const Scene& scene, const std::vector<Tip>& tips, const Cracks& cracks);
 
 }  // namespace riven

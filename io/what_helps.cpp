@@ -18,6 +18,9 @@ constexpr Setting settings[] = {
     {"solver.transfer = \"flip\"", [](const Scene& s) { return s.transfer == Transfer::flip; }},
     {"solver.transfer = \"fmpm\" or \"xpic\"",
      [](const Scene& s) { return s.transfer == Transfer::fmpm || s.transfer == Transfer::xpic; }},
+    {"solver.transfer = \"fmpm\", or", [](const Scene& s) { return s.transfer == Transfer::fmpm; }},
+    {"a solver.order of 4 or less",
+     [](const Scene& s) { return s.order <= 4 || (s.transfer != Transfer::fmpm && s.transfer != Transfer::xpic); }},
     {"law = \"neo_hookean\"",
      [](const Scene& s) {
        return std::all_of(s.materials.begin(), s.materials.end(),

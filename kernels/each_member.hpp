@@ -146,6 +146,7 @@ void each_member(CrackEvent& e, F&& f) {
   f("K_I", e.K_I);
   f("K_II", e.K_II);
   f("speed", e.speed);
+  f("load", e.load);
 }
 
 template <class F>

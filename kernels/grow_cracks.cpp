@@ -250,7 +250,8 @@ class Growth {
                          .J = t.J,
                          .K_I = t.K_I,
                          .K_II = t.K_II,
-                         .speed = t.speed});
+                         .speed = t.speed,
+                         .load = t.load});
   }
 
   const Scene& scene_;

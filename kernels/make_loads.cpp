@@ -71,7 +71,7 @@ void check_values(const Scene& scene, const Load& load, const LoadGroup& g) {
       if (bad == v.end())
         continue;
       const auto i = static_cast<size_t>(bad - v.begin());
-      fail({Exit::bad_input, "the load is not a number everywhere", "load \"" + load.name + "\"",
+      fail({Exit::bad_input, "the load is not a number everywhere", place(scene, "load " + load.name),
             fmt::format("{} at ({:.6g}, {:.6g}) m, {:.6g} s", *bad, g.first.X[i], g.first.Y[i], t),
             "finite wherever it acts", ""});
     }
@@ -92,7 +92,7 @@ void make_loads(const Scene& scene, State<Real, 2>& s) {
     else
       load_region(p, load, g);
     if (g.id.empty())
-      fail({Exit::bad_input, "the load finds no particle in its region", "load \"" + load.name + "\"", "",
+      fail({Exit::bad_input, "the load finds no particle in its region", place(scene, "load " + load.name), "",
             "a region that holds particle centres", "make the region a cell larger"});
     if (load.value[0].places || load.value[1].places) {
       for (const int id : g.id)  // particles are not sorted yet: each is at the place of its id

@@ -19,7 +19,8 @@ std::string where(const State<Real, 2>& s, long i) {
 }
 
 constexpr const char* cures =
-    "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; solver.shape = \"ugimp\"";
+    "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; solver.shape = \"ugimp\"; "
+    "a solver.order of 4 or less";
 
 /// Fails with the particle's step, time and place.
 template <class Real>
@@ -80,14 +81,13 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
   const double limit = plan.energy_growth;
   const double grown = plan.watch_energy ? e.unaccounted() : std::min(e.numerical(), e.unaccounted());
   const double lag = work_lag(plan, s.clock.step);
-  // contact takes energy; what it gives to short waves, which the transfer then wears down, is no gain
-  const double most_given = std::max(0.2, limit), given = -e.contact - std::max(0.0, e.transfer);
+  const double most_given = std::max(0.2, limit), given = e.given_by_contact();
   if (plan.contact && given > most_given * e.largest)
     stop(s, fastest_particle(s.particles), "contact makes energy; the fastest particle is named",
          fmt::format("{:.3g} % of the largest energy, {:.4g} J", 100 * given / e.largest, e.largest),
          fmt::format("{:.3g} % (limits.energy_growth, where that is more than 20 %)", 100 * most_given),
          "solver.transfer = \"fmpm\", or \"pic\" with a small solver.pic_fraction: FLIP keeps the noise between faces "
-         "that contact and a cohesive law act on in turn; a smaller solver.cfl");
+         "that contact and a cohesive law act on in turn; a smaller solver.cfl; a solver.order of 4 or less");
   if (!(grown > (limit + lag) * e.largest))
     return;
   stop(s, fastest_particle(s.particles), "energy grows without work being done; the fastest particle is named",

@@ -106,7 +106,9 @@ void watch_figures(SimulationOf<Real>& m) {
     if (!(value <= stop_at))
       stop(m, which, value, place, stop_at);
   };
-  look(Watched::energy, std::abs(s.ledger.energy.relative_error()), no_place,
+  const Energy& e = s.ledger.energy;
+  const double given = e.largest > 0 ? e.given_by_contact() / e.largest : 0;
+  look(Watched::energy, std::max(std::abs(e.relative_error()), given), no_place,
        power_of_work * work_lag(m.plan, s.clock.step));
   look(Watched::momentum, s.ledger.momentum.error(), no_place);
   look(Watched::angular_momentum, s.ledger.momentum.angular_error(), no_place);

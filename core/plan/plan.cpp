@@ -27,14 +27,15 @@ LawChoice law_choice(const Scene& scene, bool gradients) {
 void require_walls_for_bsplines(const Scene& scene) {
   if (scene.shape != ShapeFunction::bspline)
     return;
-  for (const SymmetryPlane& s : scene.symmetry) {
+  for (size_t i = 0; i < scene.symmetry.size(); ++i) {
+    const SymmetryPlane& s = scene.symmetry[i];
     const double lower = s.axis == 0 ? scene.grid.lower.x : scene.grid.lower.y;
     const double upper = s.axis == 0 ? scene.grid.upper.x : scene.grid.upper.y;
     const double wall = s.solid > 0 ? lower : upper;
     if (std::abs(s.position - wall) > 1e-6 * scene.cell)
-      fail({Exit::bad_input, "with B-splines a symmetry plane must be a wall of the grid", "symmetry",
-            std::to_string(s.position) + " m", std::to_string(wall) + " m",
-            "let the grid end at the plane, or use shape = \"ugimp\""});
+      fail({Exit::bad_input, "with B-splines a symmetry plane must be a wall of the grid",
+            place(scene, "symmetry " + std::to_string(i)), std::to_string(s.position) + " m",
+            std::to_string(wall) + " m", "let the grid end at the plane, or use shape = \"ugimp\""});
   }
 }
 

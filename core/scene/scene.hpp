@@ -281,4 +281,7 @@ struct Scene {
   std::map<std::string, std::string> places;
 };
 
+/// Where `key` or a named part ("crack left") was written; itself when the scene was not read from a file.
+std::string place(const Scene& s, const std::string& key);
+
 }  // namespace riven

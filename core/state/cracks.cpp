@@ -42,7 +42,7 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
     if (points.size() < 2)
       fail({.code = Exit::bad_input,
             .what = "a crack has no length",
-            .where = "crack \"" + line.name + "\"",
+            .where = place(scene, "crack " + line.name),
             .value = {},
             .limit = "two points or more that differ",
             .suggestion = {}});

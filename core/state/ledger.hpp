@@ -1,5 +1,8 @@
 // Where energy and momentum went, term by term.
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "core/math/vec.hpp"
 
 namespace riven {
@@ -28,6 +31,9 @@ struct Energy {
   double numerical() const { return total() + damping + contact + capture + debonding - external_work - first; }
   /// The part of it that nothing accounts for.
   double unaccounted() const { return numerical() + transfer; }
+  /// What contact, which should take energy only, has given, beyond what the transfer has worn down: what it gives to
+  /// short waves that are worn down again is no gain.
+  double given_by_contact() const { return std::max(0., -contact - std::max(0., transfer)); }
   /// unaccounted() over the largest energy or work so far.
   double relative_error() const { return largest > 0 ? unaccounted() / largest : 0; }
 };

@@ -49,7 +49,7 @@ struct Seed {
 };
 
 /// What a body's velocity field adds at each of its points.
-std::vector<Vec2> field_velocities(const Body& body, const std::vector<Vec2>& points) {
+std::vector<Vec2> field_velocities(const Scene& scene, const Body& body, const std::vector<Vec2>& points) {
   std::vector<Vec2> all(points.size());
   if (!body.velocity_field[0] && !body.velocity_field[1])
     return all;
@@ -61,7 +61,7 @@ std::vector<Vec2> field_velocities(const Body& body, const std::vector<Vec2>& po
   for (size_t i = 0; i < points.size(); ++i) {
     all[i] = {v[0][i], v[1][i]};
     if (!std::isfinite(v[0][i] + v[1][i]))
-      fail({Exit::bad_input, "the first velocity is not a number everywhere", "body \"" + body.name + "\"",
+      fail({Exit::bad_input, "the first velocity is not a number everywhere", place(scene, "body " + body.name),
             std::to_string(v[0][i]) + ", " + std::to_string(v[1][i]) + " m/s at " + std::to_string(points[i].x) + ", " +
                 std::to_string(points[i].y) + " m",
             "finite in the whole body", ""});
@@ -76,7 +76,7 @@ std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
     const Body& body = scene.bodies[b];
     const std::vector<Vec2> points = lay_points(body.region, body.holes, lattice, body.particles_per_cell);
     if (points.empty())
-      fail({Exit::bad_input, "the body holds no particle", "body \"" + body.name + "\"", "",
+      fail({Exit::bad_input, "the body holds no particle", place(scene, "body " + body.name), "",
             "a region larger than a particle", "smaller cells, or more particles_per_cell"});
     Vec2 center;
     for (const Vec2 p : points)
@@ -85,7 +85,7 @@ std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
     const double edge = lattice.h / body.particles_per_cell;
     const double mass = scene.materials[static_cast<size_t>(body.material)].density * edge * edge *
                         (body.thickness > 0 ? body.thickness : scene.thickness);
-    const std::vector<Vec2> field = field_velocities(body, points);
+    const std::vector<Vec2> field = field_velocities(scene, body, points);
     for (size_t i = 0; i < points.size(); ++i)
       seeds.push_back(
           {points[i], body.velocity + body.spin * turned(points[i] - center) + field[i], mass, static_cast<int>(b)});

@@ -61,6 +61,7 @@ struct CrackEvent {
   double J = 0;       ///< J/m^2
   double K_I = 0, K_II = 0;
   double speed = 0;  ///< m/s
+  double load = 0;   ///< of the tip at its check
 };
 
 }  // namespace riven

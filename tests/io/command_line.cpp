@@ -1,20 +1,29 @@
 // What the program says to a command line that it does not understand.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/program.hpp"
 
 using namespace riven;
 
 namespace {
 
-/// The message about `word` as the first word of a command line.
-Outcome said_to(const std::string& word) {
+/// What is said to these words of a command line.
+Outcome said_to(const std::string& words) {
   const sample::Folder folder;
-  return riven::riven(word + " -o x", folder);
+  return riven::riven(words + " -o x", folder);
 }
 
 bool says(const Outcome& o, const std::string& text) {
   return o.errors.find(text) != std::string::npos;
+}
+
+/// These words are refused, with this advice.
+void expect_advice(const std::string& words, const std::string& advice) {
+  const Outcome refused = said_to(words);
+  EXPECT_EQ(refused.code, 2) << words;
+  EXPECT_TRUE(says(refused, "try:     " + advice)) << refused.errors;
 }
 
 }  // namespace
@@ -31,16 +40,31 @@ TEST(CommandLine, AnUnknownCommandIsNamedWithTheNearest) {
 }
 
 TEST(CommandLine, ASceneAloneIsToldHowToRun) {
-  const Outcome scene = said_to("plate.toml");
-  EXPECT_EQ(scene.code, 2);
-  EXPECT_TRUE(says(scene, "try:     riven run plate.toml")) << scene.errors;
+  expect_advice("plate.toml", "riven run plate.toml");
+}
+
+TEST(CommandLine, AStudyIsNotRunButStudied) {
+  expect_advice("run sent_j", "sent_j is a study: riven study sent_j");
+  expect_advice("study sent", "sent is a scene: riven run sent");
+}
+
+TEST(CommandLine, WhatCannotBePrintedIsAFileError) {
+  const sample::Folder folder;
+  const Outcome full = riven::riven("cases >/dev/full 2>" + (folder / "said").string() + "; echo $?", folder);
+  EXPECT_EQ(full.output, "4\n");
+  EXPECT_NE(sample::text_of(folder / "said").find("No space left on device"), std::string::npos);
+}
+
+TEST(CommandLine, APathThatLeadsNowhereIsNoInternalError) {
+  const sample::Folder folder;
+  std::filesystem::create_symlink("loop.toml", folder / "loop.toml");
+  const Outcome loop = riven::riven("run " + (folder / "loop.toml").string() + " -o x", folder);
+  EXPECT_NE(loop.code, 0);
+  EXPECT_NE(loop.code, 1) << loop.errors;
 }
 
 TEST(CommandLine, ATolerancePastTheWholeIsAskedForInPerCent) {
-  const sample::Folder folder;
-  const Outcome two = riven::riven("advise sent --within 2 -o x", folder);
-  EXPECT_EQ(two.code, 2);
-  EXPECT_TRUE(says(two, "did you mean '2%'?")) << two.errors;
+  expect_advice("advise sent --within 2", "did you mean '2%'?");
 }
 
 TEST(CommandLine, MissingWordsOfACommandAreStillItsOwn) {

@@ -45,6 +45,7 @@ TEST(ResultsTips, EventsAreWrittenAsTheyHappenAndOnce) {
     e.place = {3, 1};
     e.J = 100;
     e.K_I = 2e6;
+    e.load = 1.0625;
     events.push_back(e);
     log.write(events, cracks);
     EXPECT_EQ(lines_of(path).size(), 2u);
@@ -63,9 +64,9 @@ TEST(ResultsTips, EventsAreWrittenAsTheyHappenAndOnce) {
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
             "time [s],step,crack,end,event,x [m],y [m],other crack,K_I [Pa m^0.5],K_II [Pa m^0.5],J [J/m^2],"
-            "speed [m/s]");
-  EXPECT_EQ(lines[1], "0.5,7,low,last,start,3,1,,2000000,0,100,0");
-  EXPECT_EQ(lines[2], "0.5,7,high,first,join,3,1,low,2000000,0,100,0");
+            "speed [m/s],load [1]");
+  EXPECT_EQ(lines[1], "0.5,7,low,last,start,3,1,,2000000,0,100,0,1.0625");
+  EXPECT_EQ(lines[2], "0.5,7,high,first,join,3,1,low,2000000,0,100,0,1.0625");
   EXPECT_NE(lines[3].find(",arrest,"), std::string::npos);
   std::filesystem::remove(path);
 }
@@ -102,16 +103,24 @@ TEST(ResultsTips, HaveColumnsUpToAReasonableNumber) {
   tips[1].K_I = 3;
   tips[1].K_II = -1;
   tips[1].speed = 7;
+  tips[1].grows = true;
+  tips[1].drive_I = 4;
+  Scene scene;
+  scene.cracks.resize(2);
+  scene.growth = GrowthRule{};
+  scene.growth->criterion = GrowthCriterion::k_max;
+  scene.growth->toughness = 5;
   const std::vector<HistoryColumn> columns = tip_columns(tips, cracks);
   std::vector<double> row;
-  add_tip_values(tips, cracks, row);
-  ASSERT_EQ(columns.size(), 21u);
-  ASSERT_EQ(row.size(), 21u);
+  add_tip_values(scene, tips, cracks, row);
+  ASSERT_EQ(columns.size(), 22u);
+  ASSERT_EQ(row.size(), 22u);
   EXPECT_EQ(columns[7].name, "high last x");
   EXPECT_EQ(columns[10].unit, "J/m^2");
   const Vec2 end = cracks.plane[cracks.end_point(1, true)];
-  EXPECT_EQ((std::vector<double>{row.begin() + 7, row.begin() + 14}),
-            (std::vector<double>{end.x, end.y, 0.5, 9, 3, -1, 7}));
+  EXPECT_EQ(columns[14].name, "high last load");  // of the one that grows
+  EXPECT_EQ((std::vector<double>{row.begin() + 7, row.begin() + 15}),
+            (std::vector<double>{end.x, end.y, 0.5, 9, 3, -1, 7, 0.8}));
   const std::vector<HistoryColumn> far = reading_columns({"far", {}}, tips, cracks);
   row.clear();
   add_reading_values(tips, row);
@@ -121,8 +130,8 @@ TEST(ResultsTips, HaveColumnsUpToAReasonableNumber) {
   EXPECT_EQ((std::vector<double>{row.begin() + 3, row.begin() + 6}), (std::vector<double>{9, 3, -1}));
   tips.resize(400);
   row.clear();
-  add_tip_values(tips, cracks, row);
-  EXPECT_EQ(row.size(), 7 * most_tip_columns);
+  add_tip_values(scene, tips, cracks, row);
+  EXPECT_EQ(row.size(), 7 * most_tip_columns + 1);
   EXPECT_EQ(tip_columns(tips, cracks).size(), row.size());
 }
 
@@ -136,7 +145,8 @@ TEST(ResultsTips, AreAllInTheSummary) {
   tips[0].reach[1] = tips[0].reach[2] = tips[0].reach[3] = 2;
   tips[1].crack = 1;
   tips[1].open = false;
-  const std::vector<Summary::Tip> list = summarize_tips(tips, cracks);
+  const Scene scene;
+  const std::vector<Summary::Tip> list = summarize_tips(scene, tips, cracks);
   ASSERT_EQ(list.size(), 60u);
   EXPECT_EQ(list[0].crack, "low");
   EXPECT_EQ(list[0].end, "last");

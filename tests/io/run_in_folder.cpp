@@ -177,6 +177,31 @@ TEST(RunInFolder, ResultsOfAnotherSceneAreNotRemovedUnlessToldTo) {
   EXPECT_EQ(run.summary()["scene"], "small");
 }
 
+TEST(RunInFolder, ATableThatIsNoneOfRivensIsNotRemovedUnlessToldTo) {
+  const LongRun run;
+  const std::string there = "year,event\n1215,charter\n";
+  std::filesystem::create_directories(run.results());
+  write_file(run.results() / "history.csv", there);
+  const Program refused(run.arguments({"--wall-limit", "50 ms"}), run.printed());
+  run.expect(refused.end(), 4, {(run.results() / "history.csv").string(), "no run has written", "--overwrite"});
+  EXPECT_EQ(sample::text_of(run.results() / "history.csv"), there);
+  const Program told(run.arguments({"--wall-limit", "50 ms", "--overwrite"}), run.printed());
+  run.expect(told.end(), 5, {"the wall limit"});
+}
+
+TEST(RunInFolder, TwoColumnsOfOneNameAreRefusedBeforeAnythingIsWritten) {
+  const LongRun run;
+  const std::string there = R"({"scene": "small", "status": "done"})";
+  std::filesystem::create_directories(run.results());
+  write_file(run.results() / "summary.json", there);
+  write_file(run.folder / "small.toml", std::string(test::small_scene) +
+                                            "[[probe]]\nname = \"kinetic\"\nkind = \"crack_opening\"\n"
+                                            "target = \"crack_1\"\n");
+  const Program refused(run.arguments(), run.printed());
+  run.expect(refused.end(), 2, {"small.toml:25", "probe", "kinetic", "another name"});
+  EXPECT_EQ(sample::text_of(run.results() / "summary.json"), there);
+}
+
 TEST(RunInFolder, ARestartIntoAnotherFolderTakesAlongWhatThereIs) {
   const LongRun run;
   const Program first(run.arguments({"--wall-limit", "300 ms", "--set", "output.frames=1000000"}), run.printed());

@@ -22,6 +22,10 @@ TEST(WhatHelps, LeavesOutWhatTheSceneHasAlready) {
   EXPECT_EQ(what_helps(text_of(Watched::angular_momentum).advice, s), "smaller cells");
   s.transfer = Transfer::fmpm;
   EXPECT_EQ(what_helps(text_of(Watched::stretch).advice, s), "a larger particles_per_cell");
+  const char* const orders = "a smaller solver.cfl; a solver.order of 4 or less";
+  EXPECT_EQ(what_helps(orders, s), "a smaller solver.cfl");
+  s.order = 8;
+  EXPECT_EQ(what_helps(orders, s), orders);
   s.stress_update = StressUpdate::usavg;
   EXPECT_TRUE(what_helps(text_of(Watched::energy).advice, s).starts_with("a smaller solver.cfl; contact.law"));
   s.cracks.clear();

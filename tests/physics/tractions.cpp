@@ -138,11 +138,6 @@ Pressed press(Scene s, double p) {
 
 constexpr double MPa = 1e6, half_length = 12e-3;
 
-/// The faces part as an ellipse, delta = 4 P sqrt(a^2 - x^2) / E' in an infinite plate, times
-///   V = -0.071 - 0.535 r + 0.169 r^2 + 0.02 r^3 - 1.071 ln(1 - r) / r,   r = a / w
-/// in the middle of a strip (H. Tada, P.C. Paris and G.R. Irwin, The Stress Analysis of Cracks Handbook, 3rd ed., 2.1;
-/// a uniform stress that is added to make faces free of it opens nothing). 4 % is half a cell on the length of the
-/// crack: the tip is not known better than that.
 /// A crack grows under its pressure until it has cut a block that flies and spins; the halves draw apart, and their
 /// corners leave points of the faces behind.
 TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
@@ -173,6 +168,11 @@ TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
   EXPECT_LT(worst, 0.005);
 }
 
+/// The faces part as an ellipse, delta = 4 P sqrt(a^2 - x^2) / E' in an infinite plate, times
+///   V = -0.071 - 0.535 r + 0.169 r^2 + 0.02 r^3 - 1.071 ln(1 - r) / r,   r = a / w
+/// in the middle of a strip (H. Tada, P.C. Paris and G.R. Irwin, The Stress Analysis of Cracks Handbook, 3rd ed., 2.1;
+/// a uniform stress that is added to make faces free of it opens nothing). 4 % is half a cell on the length of the
+/// crack: the tip is not known better than that.
 TEST(Pressure, OpensACrackToAnEllipse) {
   for (const Plane plane : {Plane::strain, Plane::stress}) {
     Scene s = plate(12, 60);

@@ -77,6 +77,25 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
   }
 }
 
+TEST(WatchedFigures, CountWhatContactMakesBeyondWhatIsWornDown) {
+  const Scene s = cracked_block();
+  const ChosenSpace space;
+  Simulation m(s, space);
+  Energy& e = m.state.ledger.energy;
+  e.largest = 5;
+  const auto energy_with = [&](double contact, double transfer) {
+    e.contact = contact;
+    e.transfer = transfer;
+    e.external_work = e.total() - e.first + contact + transfer;  // all is accounted for
+    watch_figures(m);
+    return figure(m, Watched::energy).value;
+  };
+  EXPECT_NEAR(energy_with(0.2, 0), 0, 1e-12);
+  EXPECT_NEAR(energy_with(-0.2, 0), 0.04, 1e-12);
+  EXPECT_NEAR(energy_with(-0.2, 0.15), 0.01, 1e-12);
+  EXPECT_NEAR(energy_with(-0.2, 0.3), 0, 1e-12);
+}
+
 TEST(WatchedFigures, RememberTheWorstAndTheFirstThatWasBeyond) {
   Scene s = cracked_block();
   s.limits.warn[static_cast<size_t>(Watched::expansion)] = 1.2;
