@@ -7,7 +7,9 @@
 // is the upper (+) and lower (-) surface of each crack point k, j the field that the surface sees at node i, A_k the
 // share of the present length of the segments around the point that lies in the solid, times its thickness. A point of
 // which one surface finds no mass bears nothing on either, so that momentum is kept; sums run in the order of the
-// points, whatever the number of threads.
+// points, whatever the number of threads. Where other cracks are near, the pressures of a point act in two halves, in
+// the middles of what it bears before and behind it: another crack that crosses there, or ends, parts the solid between
+// them.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/plan/plan.hpp"
@@ -15,7 +17,8 @@
 
 namespace riven {
 
-/// Where the forces of a crack point went in this step.
+/// Where the forces of a crack point, or half of one, went in this step. Those of point k stand at 2 k and 2 k + 1; the
+/// latter is not applied where they act at the point.
 struct PointForces {
   static constexpr int nodes = 9;
   struct Surface {

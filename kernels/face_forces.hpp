@@ -7,8 +7,16 @@
 
 namespace riven {
 
-/// On the upper surface of each point, N, with the pressures of `time`.
-exec::Array<Vec2> face_forces(const exec::Space&, double time, Cracks&);
+/// What the tractions of a point do to its upper surface.
+struct FaceForce {
+  static constexpr double whole = -1;
+  Vec2 force;             ///< N
+  double before = whole;  ///< share of it that acts before the point, or `whole`: all of it acts at the point
+};
+
+/// Of each point, with the pressures of `time`. Pressures act between points, where another crack may part the faces;
+/// cohesive laws go by the opening of their points, and act where that is.
+exec::Array<FaceForce> face_forces(const exec::Space&, double time, Cracks&);
 
 /// Books the work that pressures did in a step of dt by `power`, W of each point, and lets damage follow the openings.
 void book_tractions(const exec::Array<double>& power, double dt, Cracks&, Energy&);
