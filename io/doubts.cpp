@@ -6,6 +6,7 @@
 #include <numbers>
 #include <variant>
 
+#include "core/fracture/growth.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
@@ -134,7 +135,26 @@ void doubt_zone(const Scene& s, const CrackLine& c, std::vector<Doubt>& list) {
                      1e3 * zone / shortest_zone)});
 }
 
+/// A crack that opens (mode I, where it follows the greatest hoop stress) cannot outrun surface waves.
+void doubt_speed(const Scene& s, const std::optional<GrowthRule>& rule, const std::string& key,
+                 std::vector<Doubt>& list) {
+  if (!rule || rule->direction != GrowthDirection::hoop)
+    return;
+  double fastest = 0;
+  for (const Material& m : s.materials)
+    fastest = std::max(fastest, rayleigh_speed(m, s.plane));
+  if (rule->speed_limit > fastest)
+    list.push_back(
+        {place(s, key),
+         fmt::format("no crack opens faster than the Rayleigh speed, {:.4g} m/s, and this one may run at {:.4g}",
+                     fastest, rule->speed_limit),
+         "leave speed_limit out"});
+}
+
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
+  doubt_speed(s, s.growth, "growth.speed_limit", list);
+  for (size_t i = 0; i < s.cracks.size(); ++i)
+    doubt_speed(s, s.cracks[i].growth, fmt::format("crack.{}.growth.speed_limit", i), list);
   for (const CrackLine& c : s.cracks)
     if (const double cells = length(c) / s.cell; cells < shortest_crack)
       list.push_back({place(s, "crack " + c.name),

@@ -96,11 +96,12 @@ std::vector<HistoryColumn> Recorder<Real>::columns() const {
   add(tip_columns(m_.state.tips, m_.state.cracks));
   for (const FractureReading& r : m_.scene.readings)
     add(reading_columns(r, m_.state.tips, m_.state.cracks));
-  add(probes_.columns());
-  for (auto one = c.begin(); one != c.end(); ++one)
-    if (std::any_of(c.begin(), one, [&](const HistoryColumn& other) { return other.name == one->name; }))
-      fail({Exit::bad_input, "two columns of history.csv would have one name", place(m_.scene, "probe " + one->name),
-            one->name, "a name of its own", "another name for the probe"});
+  for (const HistoryColumn& probe : probes_.columns()) {
+    if (std::any_of(c.begin(), c.end(), [&](const HistoryColumn& other) { return other.name == probe.name; }))
+      fail({Exit::bad_input, "history.csv has a column of this name already", place(m_.scene, "probe " + probe.name),
+            probe.name, "a name of its own", "another name for the probe"});
+    c.push_back(probe);
+  }
   return c;
 }
 

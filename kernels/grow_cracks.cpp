@@ -10,6 +10,7 @@
 #include "core/fracture/stress_intensity.hpp"
 #include "core/state/bodies_at_cracks.hpp"
 #include "core/state/make_tips.hpp"
+#include "core/state/tractions.hpp"
 #include "kernels/bring_near.hpp"
 #include "kernels/particles_near.hpp"
 #include "kernels/simulation.hpp"
@@ -59,7 +60,7 @@ class Growth {
     if (!solid_ahead(s_, to, *way, particle_))
       return leave(to, *way, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
-    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_at_end();
     book(segment);
     tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
     tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
@@ -143,7 +144,7 @@ class Growth {
     o.place = c.plane[k];
     o.distance = norm(o.place - x_);
     join_crack(s_.cracks, o, c.plane0[k], scene_.cell);
-    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_at_end();
     book(o.distance);
     close(tip_, CrackEvent::Kind::meet, o.place, other.crack);
     close(other, CrackEvent::Kind::meet, o.place, tip_.crack);
@@ -157,10 +158,10 @@ class Growth {
       return join(*open, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
     book(segment);
-    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_at_end();
     const double on = way_before_solid(s_, to, way, beyond, particle_);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to + on * way, first(to) + on * way);
-    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_at_end();
     end_bears_nothing(s_.cracks, tip_.crack, tip_.last);
     close(tip_, CrackEvent::Kind::exit, to, -1);
   }
@@ -168,7 +169,7 @@ class Growth {
   void join(const Obstacle& o) { join(o, o.distance); }
   void join(const Obstacle& o, double cut) {
     join_crack(s_.cracks, o, first(o.place), scene_.cell);
-    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_at_end();
     book(cut);
     close(tip_, CrackEvent::Kind::join, o.place, o.on.other);
     for (Tip& t : s_.tips)
@@ -214,6 +215,12 @@ class Growth {
   Vec2 first(Vec2 x) const {
     const int k = s_.cracks.end_point(tip_.crack, tip_.last);
     return first_position(s_, x, s_.cracks.plane0[k] - s_.cracks.plane[k]);
+  }
+
+  /// Gives the new point at the end what goes by its place.
+  void lay_at_end() {
+    lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
+    keep_to_region(scene_, tip_.crack, tip_.last, s_.cracks);
   }
 
   /// The tip has grown by a segment.

@@ -84,11 +84,15 @@ void make_constraints(const Scene& scene, State<Real, 2>& s) {
     c.owners.push_back(std::move(o));
     return static_cast<int>(c.owners.size()) - 1;
   };
+  int planes[2] = {0, 0};  // so far, across each axis
   const std::pair<int, int> all_x{0, l.nx - 1}, all_y{0, l.ny - 1};
   for (const SymmetryPlane& plane : scene.symmetry) {
     std::optional<TimeFunction> velocity[2];
     velocity[plane.axis] = TimeFunction{};
-    const int owner = add_owner(plane.axis == 0 ? "symmetry x" : "symmetry y", velocity);
+    std::string name = plane.axis == 0 ? "symmetry x" : "symmetry y";
+    if (planes[plane.axis]++ > 0)
+      name += " " + std::to_string(planes[plane.axis]);
+    const int owner = add_owner(std::move(name), velocity);
     const auto at = node_range(l, plane.axis, plane.position, plane.position);
     auto behind =
         plane.solid > 0 ? std::pair{0, at.second} : std::pair{at.first, plane.axis == 0 ? l.nx - 1 : l.ny - 1};

@@ -3,8 +3,8 @@
 // A first test in single precision, over the nodes of one particle at a time, sorts out the segments that surely are
 // not crossed; what remains goes through the exact test (core/fracture/crossing.hpp). A pair that crosses a crack is
 // recorded, and counted for its node, crack and side. A crack that ends on another one is crossed beyond its end, too,
-// by paths that come over that one (beyond_end.hpp). Pairs in which the particle has no weight on the node are kept, but
-// count for nothing.
+// by paths that come over that one (beyond_end.hpp). Pairs in which the particle has no weight on the node are kept,
+// but count for nothing.
 //
 // What was found holds until the particle and the cracks have moved by more than the clearance that was measured with
 // it (kernels/clearance.hpp); until then records and counts stay as they are. The outcome is the same as without. How

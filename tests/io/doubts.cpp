@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/fracture/growth.hpp"
 #include "io/check_scene.hpp"
 #include "tests/physics/scene_gates.hpp"
 
@@ -58,6 +59,19 @@ TEST(Doubts, NameMaterialsThatNoSolidIsMadeOf) {
   EXPECT_EQ(doubts(gates::shipped("beam_impact")).size(), 1);  // an impactor of 367 g, as small as it is
   s.materials[0].density = 7.85;
   expect_doubt(s, "material steel", "faster than in diamond");
+}
+
+TEST(Doubts, NameCracksThatMayOutrunSurfaceWaves) {
+  Scene s = sound_scene();
+  s.growth = GrowthRule{};
+  s.growth->toughness = 100;
+  const double rayleigh = rayleigh_speed(s.materials[0], s.plane);
+  s.growth->speed_limit = 0.99 * rayleigh;
+  EXPECT_TRUE(doubts(s).empty());
+  s.growth->speed_limit = 1.01 * rayleigh;
+  expect_doubt(s, "growth.speed_limit", "Rayleigh");
+  s.growth->direction = GrowthDirection::self_similar;  // sliding cracks may run faster
+  EXPECT_TRUE(doubts(s).empty());
 }
 
 TEST(Doubts, NameGripsThatHoldNothing) {

@@ -140,7 +140,7 @@ constexpr double MPa = 1e6, half_length = 12e-3;
 
 /// A crack grows under its pressure until it has cut a block that flies and spins; the halves draw apart, and their
 /// corners leave points of the faces behind.
-TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
+Scene pressed_block() {
   Scene s = empty_scene(1. / 20, {{-0.5, -0.5}, {1.5, 1.5}});
   s.bodies = {body("block", Rectangle{{0, 0}, {1, 1}})};
   s.bodies[0].velocity = {0.2, 0.1};
@@ -153,6 +153,11 @@ TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
   s.fracture.contour = 6;
   s.growth = GrowthRule{};
   s.growth->toughness = 1.4e3;
+  return s;
+}
+
+TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
+  const Scene s = pressed_block();
   const ChosenSpace space;
   Simulation m(s, space);
   double worst = 0;
@@ -166,6 +171,33 @@ TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
     exits += e.kind == CrackEvent::Kind::exit;
   EXPECT_EQ(exits, 2);
   EXPECT_LT(worst, 0.005);
+}
+
+/// New faces bear the pressure within its region, and not beyond.
+TEST(Pressure, StaysInItsRegionAsTheCrackGrows) {
+  for (const double right : {0.7, 0.8, 2.}) {  // to the tip, a cell past it, and everywhere
+    Scene s = pressed_block();
+    s.cracks[0].traction->region = Rectangle{{-1, -1}, {right, 2}};
+    const ChosenSpace space;
+    Simulation m(s, space);
+    const Cracks& c = m.state.cracks;
+    while (m.state.tips[1].length < 0.2 && m.state.clock.time < 0.16)
+      m.step();
+    ASSERT_GE(m.state.tips[1].length, 0.2) << right;
+    long grown = 0;
+    for (int k = c.start[0]; k < c.start[1]; ++k) {
+      if (c.plane0[k].x < 0.71)
+        continue;
+      ++grown;
+      const double reach = 0.025;  // half of a new segment
+      if (c.plane0[k].x > right + reach) {
+        EXPECT_EQ(face_area(c, k), 0) << right;
+      } else if (c.plane0[k].x < right - reach) {
+        EXPECT_GT(face_area(c, k), 0) << right;
+      }
+    }
+    EXPECT_GT(grown, 5) << right;
+  }
 }
 
 /// The faces part as an ellipse, delta = 4 P sqrt(a^2 - x^2) / E' in an infinite plate, times
