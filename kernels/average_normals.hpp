@@ -65,7 +65,8 @@ struct NormalAverager {
   RIVEN_FN void find(long f) const {
     normals[f] = {};
     const NodeCracks& node = nodes[f];
-    const Vec2 at{double(node.node % lists.lattice.nx), double(node.node / lists.lattice.nx)};
+    const int column = node.node % lists.lattice.nx, row = node.node / lists.lattice.nx;
+    const Vec2 at{double(column), double(row)};
     int c = lists.candidate_start[f];
     for (int m = 0; m < held[f]; ++m, ++c) {
       while (lists.candidate[c] != node.crack[m])

@@ -226,7 +226,10 @@ void list_segments(const exec::Space& space, const Lattice& lattice, const Crack
   constexpr Reach cell = Shape::width == 3 ? Reach{-1, 1, 1} : Reach{-1, 2, 1};
   constexpr Reach node{-1.5, 1.5, 0};
   list_ends(lattice, cracks, fields);
-  const exec::Array<Vec2> points = points_seen(lattice, cracks, fields);
+  exec::Array<Vec2> beyond;
+  if (!fields.ends.empty())
+    beyond = points_seen(lattice, cracks, fields);
+  const exec::Array<Vec2>& points = fields.ends.empty() ? fields.hashed : beyond;
   fill_bins(space, lattice, cracks, points, cell,
             {fields.cell_index, fields.cells, fields.cell_start, fields.cell_segment});
   mark_tiles(space, lattice, cracks, fields);

@@ -82,7 +82,7 @@ inline void fill_with_none(const exec::Space& space, exec::Array<int>& numbers, 
 inline void fill_bins(const exec::Space& space, const Lattice& lattice, const Cracks& cracks,
                       const exec::Array<Vec2>& points, Reach reach, Bins bins) {
   constexpr long segments_of_task = 64, places_of_task = 1024;
-  const long nodes = lattice.nodes(), segments = points.size() > 0 ? points.size() - 1 : 0;
+  const long nodes = lattice.nodes(), segments = points.empty() ? 0 : points.size() - 1;
   const detail::PlacesOfSegment places{lattice, exec::data(cracks.crack), exec::data(points), reach};
   fill_with_none(space, bins.index, nodes);
   int* const index = exec::data(bins.index);
