@@ -151,7 +151,20 @@ void doubt_speed(const Scene& s, const std::optional<GrowthRule>& rule, const st
          "leave speed_limit out"});
 }
 
+/// FLIP wears no waves down: what a crack releases stays in the body.
+void doubt_noise(const Scene& s, std::vector<Doubt>& list) {
+  for (size_t c = 0; s.transfer == Transfer::flip && c < s.cracks.size(); ++c)
+    if (growth_rule(s, static_cast<int>(c))) {
+      list.push_back({place(s, "crack " + s.cracks[c].name),
+                      "with FLIP the energy that a crack releases as it grows stays in the body as noise, which drives "
+                      "tips on",
+                      "try solver.transfer = \"fmpm\" with solver.order = 2"});
+      return;
+    }
+}
+
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
+  doubt_noise(s, list);
   doubt_speed(s, s.growth, "growth.speed_limit", list);
   for (size_t i = 0; i < s.cracks.size(); ++i)
     doubt_speed(s, s.cracks[i].growth, fmt::format("crack.{}.growth.speed_limit", i), list);

@@ -23,6 +23,7 @@ from pathlib import Path
 # have: there is one entry for each of the kinds with choices of their own.
 SCENE = """[solver]
 time = "1 us"
+transfer = "fmpm"
 [grid]
 cell = "1 mm"
 lower = ["-4 mm", "-4 mm"]

@@ -61,10 +61,23 @@ TEST(Doubts, NameMaterialsThatNoSolidIsMadeOf) {
   expect_doubt(s, "material steel", "faster than in diamond");
 }
 
+TEST(Doubts, NameGrowthOnFlip) {
+  Scene s = sound_scene();
+  s.growth = GrowthRule{};
+  s.growth->toughness = 100;
+  expect_doubt(s, "crack edge", "noise");
+  s.transfer = Transfer::xpic;
+  EXPECT_TRUE(doubts(s).empty());
+  s.transfer = Transfer::flip;
+  s.cracks[0].grows = false;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameCracksThatMayOutrunSurfaceWaves) {
   Scene s = sound_scene();
   s.growth = GrowthRule{};
   s.growth->toughness = 100;
+  s.transfer = Transfer::fmpm;
   const double rayleigh = rayleigh_speed(s.materials[0], s.plane);
   s.growth->speed_limit = 0.99 * rayleigh;
   EXPECT_TRUE(doubts(s).empty());
