@@ -1,5 +1,5 @@
 // Particles around a tip where q is not zero, as many at a time as there are lanes of a vector, and what inertia adds
-// to J there: sum a_p q P_K of j_integral.hpp.
+// to J there: sum a_p (q - q_core) P_K of j_integral.hpp.
 #pragma once
 #include <algorithm>
 
@@ -20,7 +20,7 @@ struct Inertia {
     alignas(64) int at[lanes];
     std::copy_n(particle, lanes, at);
     gather_motion(s, slots, at, count);
-    weigh(s, task.domain, at, count);
+    weigh(s, task, at, count);
     const double *A = s.particles.F[0].data(), *B = s.particles.F[1].data(), *C = s.particles.F[2].data(),
                  *D = s.particles.F[3].data();
     const Real *VX = s.particles.v[0].data(), *VY = s.particles.v[1].data();
@@ -91,18 +91,20 @@ struct Inertia {
     ay[k] = m.value[3];
   }
 
-  void weigh(const State<Real, 2>& s, const JDomain& domain, const int* at, int count) {
+  void weigh(const State<Real, 2>& s, const TipTask& task, const int* at, int count) {
     const double *X = s.particles.x[0].data(), *Y = s.particles.x[1].data();
     const Real* M = s.particles.mass.data();
     alignas(64) double thickness[lanes];
     for (int k = 0; k < lanes; ++k)
       thickness[k] = s.thickness[s.particles.body[at[k]]];
-    const JDomain d = domain;
+    const JDomain d = task.domain, core = task.core.value_or(d);
+    const double left_out = task.core ? 1 : 0;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       rx[k] = X[i] - d.tip.x;
       ry[k] = Y[i] - d.tip.y;
-      mass[k] = (k < count ? 1.0 : 0.0) * d.weight({rx[k], ry[k]}) * M[i] / thickness[k];
+      const Vec2 r{rx[k], ry[k]};
+      mass[k] = (k < count ? 1.0 : 0.0) * (d.weight(r) - left_out * core.weight(r)) * M[i] / thickness[k];
     });
   }
 
@@ -125,7 +127,7 @@ struct Inertia {
   }
 
   alignas(64) double rx[lanes], ry[lanes];              ///< m, from the tip
-  alignas(64) double mass[lanes];                       ///< kg/m, per thickness, times q
+  alignas(64) double mass[lanes];                       ///< kg/m, per thickness, times q - q_core
   alignas(64) double gxx[lanes] = {}, gxy[lanes] = {};  ///< 1/s, velocity gradient
   alignas(64) double gyx[lanes] = {}, gyy[lanes] = {};
   alignas(64) double ax[lanes] = {}, ay[lanes] = {};  ///< m/s^2

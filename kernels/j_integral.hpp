@@ -8,8 +8,14 @@
 // v_i (grad v F)_iK is the gradient of v^2/2. Around a tip at rest, where v is finite, Green's theorem makes what it
 // adds to the area the opposite of what v^2/2 adds to the band and the faces. So there v counts in neither: a body that
 // spins at omega would else have J of rho omega^2 x_tip times the area within the contour where inertia is left out.
+//
+// Around a tip that runs steadily both parts of P_K grow as 1/r^2 and cancel at each place. What the grid makes of them
+// a few cells about the tip does not cancel, as it smooths a and grad v unlike, and the tip runs by steps of a
+// particle. So of a tip that runs the integral is that of its core, a contour of its own within which P_K is left out:
+// sum a_p (q - q_core) P_K.
 #pragma once
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/exec/space.hpp"
@@ -37,6 +43,7 @@ struct TipSums {
 /// A tip to sum around.
 struct TipTask {
   JDomain domain;
+  std::optional<JDomain> core;  ///< within the domain, where what inertia adds is left out
   int crack = 0;
   bool last = true;         ///< which end of the crack it is
   Vec2 heading;             ///< unit vector out of the tip along the crack

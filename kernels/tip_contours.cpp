@@ -15,6 +15,11 @@ namespace {
 /// beyond bounds, and a tip that speeds up would feed itself.
 constexpr double fastest_fields = 0.6;
 
+/// Cells from a tip that runs to the edges of its core, where no inertia is summed: in a strip whose release is known J
+/// of 16 cells is 1.01, 0.99, 0.97 and 0.97 of it at 0.2, 0.4, 0.6 and 0.8 of the Rayleigh speed, and swings by 5 to 7
+/// %. With 2 cells it is 1.00, 0.99, 0.97, 0.85, and with none 0.92, 0.81, 0.64, 0.40, and swings by 30 %.
+constexpr double core_of_running_tip = 3;
+
 /// Share of an edge of the contour that must lie in the solid, besides the opening of the crack itself where it passes;
 /// there less will do where there is no room to draw the edge in.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
@@ -61,16 +66,21 @@ TipTask TipContours<Real>::place(DueTip& d) const {
     task.touched = m_.contact_sums.touched.data();
   task.other_faces = rules_.method != JMethod::pijc;
   task.inertia = counts_inertia(d, task.running.speed > 0);
+  if (task.running.speed > 0)
+    task.core = core_of(task.domain, core_of_running_tip * m_.scene.cell, m_.scene.cell);
   task.interaction = rules_.interaction;
   return task;
 }
 
-/// J has inertia within the contour; of a tip that runs, what a near one says of its drive has none.
+/// J has inertia within the contour; of a tip that runs, beyond its core, and what a near one says of its drive has
+/// none.
 template <class Real>
 bool TipContours<Real>::counts_inertia(const DueTip& d, bool runs) const {
-  if (rules_.area == AreaTerm::automatic)
-    return runs ? !d.near : rules_.contour > 10;
-  return rules_.area == AreaTerm::always && !(runs && d.near);
+  if (rules_.area == AreaTerm::never)
+    return false;
+  if (runs)
+    return !d.near && rules_.contour > 2 * core_of_running_tip;
+  return rules_.area == AreaTerm::always || rules_.contour > 10;
 }
 
 /// The other tips, where the contour is to leave them out.

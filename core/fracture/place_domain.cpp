@@ -32,6 +32,12 @@ JDomain plain_domain(Vec2 tip, const double reach[4], double h) {
   return d;
 }
 
+JDomain core_of(const JDomain& d, double far, double h) {
+  double reach[4];
+  std::transform(d.reach, d.reach + 4, reach, [&](double r) { return std::min(r, far); });
+  return plain_domain(d.tip, reach, h);
+}
+
 PlacedDomain place_domain(Vec2 tip, const double most[4], double h, const std::vector<Vec2>& others) {
   PlacedDomain placed;
   double reach[4];

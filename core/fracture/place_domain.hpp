@@ -19,6 +19,9 @@ struct PlacedDomain {
 /// cell.
 PlacedDomain place_domain(Vec2 tip, const double most[4], double h, const std::vector<Vec2>& others);
 
+/// Edges `far` (m) from the tip, or as those of `d` where these are nearer.
+JDomain core_of(const JDomain& d, double far, double h);
+
 /// The rectangle alone: edges `reach` away.
 JDomain plain_domain(Vec2 tip, const double reach[4], double h);
 
