@@ -1,12 +1,14 @@
 #include "kernels/contact.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/laws/contact_node.hpp"
 #include "kernels/contact_meetings.hpp"
 #include "kernels/field_motion.hpp"
+#include "kernels/pressed_faces.hpp"
 
 namespace riven {
 
@@ -23,7 +25,17 @@ struct Detection {
   const ThirdNormal* third_normals;
   const ContactArea* area;
   long flagged;
-  double reach;  ///< m, gap beyond which nothing touches (displacement)
+  double reach;        ///< m, gap beyond which nothing touches (displacement)
+  double* pressed;     ///< CrackFields; null where none is kept
+  const Vec2* slopes;  ///< ContactSums; null where none pressed, and in the momentum update
+
+  /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.
+  RIVEN_INLINE double last(int node) const { return slopes ? pressed[node] : 0; }
+  /// How their fields move apart in a solid that goes on across the faces, m/s across and along them.
+  RIVEN_INLINE Vec2 apart(long index, const long* slot, const double* mass, const Meeting& m) const {
+    const Vec2 w = -distance_of(m, sums.place, slot, mass) * slopes[index];
+    return {dot(w, m.normal), dot(w, turned(m.normal))};
+  }
 };
 
 /// An impulse is more than what rounding makes of faces that move as one.
@@ -83,7 +95,8 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const int a = m.above, b = m.below;
   const double closing = dot(mass[b] * momentum[a] - mass[a] * momentum[b], m.normal);
-  if (closing <= 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
+  const double last = found.last(n.node);
+  if (closing <= 0 && last == 0 && found.by != ContactDetection::volume && m.law.law != ContactLaw::bonded) {
     ++report.apart;  // faces that part do not touch, whatever their gap
     return false;
   }
@@ -97,13 +110,19 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   const double momenta = norm(momentum[0]) + norm(momentum[1]), tiny = ContactNode::tolerance * momenta;
   Vec2 velocity[2], impulse[2];
   bool touches = false;
+  double now = 0;
   if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced * un > tiny)) {
     touches = true;
+    now = v.touch == Touch::sticks ? reduced * un : 0;
     velocity[0] = velocity[1] = (momentum[0] + momentum[1]) * (1 / (mass[0] + mass[1]));
     for (int f = 0; f < 2; ++f)
       impulse[f] = mass[f] * (velocity[f] - momentum[f] * inverse[f]);
-  } else if (v.touch == Touch::pushes) {
-    const PairImpulse r = pair_impulse(v.pair, reduced, un, dot(u, t));
+  } else if (v.touch == Touch::pushes || (v.touch == Touch::sticks && last > 0)) {
+    const Vec2 across{un, dot(u, t)};
+    PairImpulse r = v.touch == Touch::pushes ? pair_impulse(v.pair, reduced, across.x, across.y) : PairImpulse{0, 0};
+    if (last > 0)
+      r = hold(r, last, v.touch == Touch::sticks, reduced, across, found.apart(index, slot, mass, m));
+    now = r.lambda;
     touches = r.lambda != 0 || r.tau != 0;
     impulse[b] = r.lambda * m.normal + r.tau * t;
     impulse[a] = -impulse[b];
@@ -113,6 +132,10 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   ++(touches ? report.touching : report.apart);
   if (!touches)
     return false;
+  if (stage == ContactStage::after && found.pressed && now > 0) {
+    found.pressed[n.node] = now;
+    ++report.pressing;
+  }
   if (v.touch != Touch::bonds) {
     report.penetration = std::max(report.penetration, -v.gap);
     report.gap = std::max(report.gap, v.gap);
@@ -298,10 +321,22 @@ RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, co
 }
 
 template <ContactStage stage, class Real>
-void run(const exec::Space& space, const char* label, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
-         const Detection<Real>& found, double dt, std::uint8_t* touched, FieldImpulses& impulses,
-         ContactReport& report) {
+void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFields& fields, const Cracks& cracks,
+         Detection<Real> found, double dt, ContactSums& sums, FieldImpulses& impulses, ContactReport& report) {
   const FieldMotion<Real, stage> motion(grid);
+  std::uint8_t* touched = nullptr;
+  if constexpr (stage == ContactStage::after) {
+    sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
+    sums.touched.zero();
+    if (sums.keep_touched)
+      touched = exec::data(sums.touched);
+    if (fields.pressing > 0)
+      fields.pressed.zero();
+    fields.pressing = 0;
+  } else if (found.pressed && fields.pressing > 0) {
+    find_slopes(space, motion, grid.lattice, fields, sums.slopes);
+    found.slopes = exec::data(std::as_const(sums.slopes));
+  }
   const ImpulseNotes notes(impulses, grid.lattice);
   const NodeCracks* nodes = exec::data(fields.nodes);
   const std::uint8_t* held = exec::data(fields.held);
@@ -309,7 +344,7 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
   const Lattice lattice = grid.lattice;
   const long count = fields.nodes.size();
   constexpr long ahead = 8;
-  report += exec::parallel_sum<ContactReport>(
+  const ContactReport found_now = exec::parallel_sum<ContactReport>(
       space, label, fields.nodes.size(),
       [=] RIVEN_KERNEL(long i, ContactReport& sum) {
         if (i + ahead < count && held[i + ahead] != 0) {
@@ -337,12 +372,14 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, const Cr
           touched[i] = acting;
       },
       exec::few);
+  fields.pressing += found_now.pressing;
+  report += found_now;
 }
 
 }  // namespace
 
 template <class Real>
-void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
+void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
              ContactSums& sums, FieldImpulses& impulses, ContactReport& report) {
   const auto any = [&](auto&& which) { return std::any_of(cracks.contact.begin(), cracks.contact.end(), which); };
@@ -357,6 +394,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
       (interfaces && sums.area.size() != 2 * fields.nodes.size() + fields.third_normals.size()) ||
       impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
+  fields.pressed.resize(by_position ? grid.lattice.nodes() : 0);
   const Detection<Real> found{.by = rules.detection,
                               .v_sep = rules.v_sep,
                               .v_contact = rules.v_contact,
@@ -365,28 +403,24 @@ void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fiel
                               .third_normals = exec::data(fields.third_normals),
                               .area = exec::data(std::as_const(sums.area)),
                               .flagged = fields.nodes.size(),
-                              .reach = 0.2 * grid.lattice.h};
+                              .reach = 0.2 * grid.lattice.h,
+                              .pressed = by_position ? exec::data(fields.pressed) : nullptr,
+                              .slopes = nullptr};
+  const auto act = [&](auto at, const char* label) {
+    run<decltype(at)::value>(space, label, grid, fields, cracks, found, dt, sums, impulses, report);
+  };
+  using Stage = ContactStage;
   switch (stage) {
-    case ContactStage::before:
-      return run<ContactStage::before>(space, "contact before", grid, fields, cracks, found, dt, nullptr, impulses,
-                                       report);
-    case ContactStage::after:
-      sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
-      sums.touched.zero();
-      return run<ContactStage::after>(space, "contact after", grid, fields, cracks, found, dt,
-                                      sums.keep_touched ? exec::data(sums.touched) : nullptr, impulses, report);
-    case ContactStage::again:
-      return run<ContactStage::again>(space, "contact again", grid, fields, cracks, found, dt, nullptr, impulses,
-                                      report);
-    case ContactStage::higher:
-      return run<ContactStage::higher>(space, "contact higher", grid, fields, cracks, found, dt, nullptr, impulses,
-                                       report);
+    case Stage::before: return act(std::integral_constant<Stage, Stage::before>{}, "contact before");
+    case Stage::after: return act(std::integral_constant<Stage, Stage::after>{}, "contact after");
+    case Stage::again: return act(std::integral_constant<Stage, Stage::again>{}, "contact again");
+    case Stage::higher: return act(std::integral_constant<Stage, Stage::higher>{}, "contact higher");
   }
 }
 
-#define RIVEN_CONTACT(Real)                                                                                      \
-  template void contact(const exec::Space&, Grid<Real>&, const CrackFields&, const Cracks&, const ContactRules&, \
-                        ContactStage, double, const ContactParticles<Real>&, ContactSums&, FieldImpulses&,       \
+#define RIVEN_CONTACT(Real)                                                                                \
+  template void contact(const exec::Space&, Grid<Real>&, CrackFields&, const Cracks&, const ContactRules&, \
+                        ContactStage, double, const ContactParticles<Real>&, ContactSums&, FieldImpulses&, \
                         ContactReport&);
 RIVEN_EACH_REAL(RIVEN_CONTACT)
 #undef RIVEN_CONTACT

@@ -21,6 +21,9 @@
 // Stopping faces at a distance instead would let them creep together by one stop after another, each a loss of energy;
 // ignoring the gap until it is negative would leave them a whole step's approach inside each other.
 //
+// By displacement, faces that pressed on each other stay together in the stages without forces as far as the solid
+// about them goes on: see pressed_faces.hpp.
+//
 // Stages: before the forces and after a second extrapolation momenta change; after the update velocities change, and
 // the accelerations by dv/dt, so that bonded fields move their particles as one field would (Nairn and Aimene,
 // section 2.1.3). Interface tractions are forces: they act once per step, with the impulse of the whole step, in the
@@ -46,6 +49,7 @@ struct ContactReport {
   long touching = 0;       ///< pairs of fields that pushed or held each other
   long apart = 0;          ///< pairs whose faces may part and did not touch
   long early = 0;          ///< nodes that touched although V_rel < V_sep (where volumes were summed)
+  long pressing = 0;       ///< nodes that see one crack and pressed in the momentum update (displacement)
   long capped = 0;         ///< nodes whose pairs were not solved within the limit of sweeps
   double penetration = 0;  ///< m, largest -delta_n of a touching pair (displacement)
   double gap = 0;          ///< m, largest delta_n at which a pair pushed (displacement)
@@ -54,6 +58,7 @@ struct ContactReport {
     touching += o.touching;
     apart += o.apart;
     early += o.early;
+    pressing += o.pressing;
     capped += o.capped;
     penetration = std::max(penetration, o.penetration);
     gap = std::max(gap, o.gap);
@@ -74,9 +79,9 @@ inline namespace RIVEN_SIDE {
 
 /// Applies contact to all flagged nodes; adds to the report. `sums` as contact_sums() prepared them, of what the
 /// detection and the laws need: positions for displacement, volumes for volume, areas for interfaces. Bonded and
-/// ignored cracks need none. Throws Error (internal) if sums are missing.
+/// ignored cracks need none. Keeps CrackFields::pressed. Throws Error (internal) if sums are missing.
 template <class Real>
-void contact(const exec::Space& space, Grid<Real>& grid, const CrackFields& fields, const Cracks& cracks,
+void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
              ContactSums& sums, FieldImpulses& impulses, ContactReport& report);
 

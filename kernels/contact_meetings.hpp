@@ -125,12 +125,17 @@ RIVEN_INLINE Meetings<cracks> find_meetings(const NodeCracks& n, HeldNormals w, 
   return m;
 }
 
+/// Distance of the mean positions of two fields along the normal, m; `place` and so on as below.
+RIVEN_INLINE double distance_of(const Meeting& m, const double* place, const long* slot, const double* mass) {
+  const double *a = place + 4 * slot[m.above], *b = place + 4 * slot[m.below];
+  return dot(m.normal, (1 / mass[m.below]) * Vec2{b[0], b[1]} - (1 / mass[m.above]) * Vec2{a[0], a[1]});
+}
+
 /// Opening of two faces along the normal, m. `place`: ContactSums::place; slots and masses of the node's fields.
 RIVEN_INLINE double gap_of(const Meeting& m, const double* place, const long* slot, const double* mass) {
   const double *a = place + 4 * slot[m.above], *b = place + 4 * slot[m.below];
-  const double of_a = 1 / mass[m.above], of_b = 1 / mass[m.below];
-  return dot(m.normal, of_b * Vec2{b[0], b[1]} - of_a * Vec2{a[0], a[1]}) -
-         dot(m.normal0, of_b * Vec2{b[2], b[3]} - of_a * Vec2{a[2], a[3]});
+  const Vec2 first = (1 / mass[m.below]) * Vec2{b[2], b[3]} - (1 / mass[m.above]) * Vec2{a[2], a[3]};
+  return distance_of(m, place, slot, mass) - dot(m.normal0, first);
 }
 
 /// Area in the plane of a node's particles over the area that its cells have inside the walls.

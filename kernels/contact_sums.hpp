@@ -37,6 +37,7 @@ struct ContactSums {
   exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update, by more
                                       ///< than rounding; empty: not asked for
   bool keep_touched = false;          ///< asks for it
+  exec::Array<Vec2> slopes;           ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
 };
 
 /// Where crack k of n = CrackFields::nodes[i] stands in ContactSums::area.

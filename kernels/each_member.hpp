@@ -159,6 +159,7 @@ template <class F>
 void each_member(CrackFields& w, F&& f) {
   f("warning_both_sides", w.warning_both_sides);
   f("warning_fourth_crack", w.warning_fourth_crack);
+  f("pressing", w.pressing);
   f("warning_place", w.warning_place);
 }
 
@@ -239,6 +240,7 @@ void visit_cracks(Cracks& c, CrackFields& fields, Visitor& f) {
   f.growing("cracks/bearing", c.bearing);
   f.grown_records("cracks/junctions", c.junctions);
   f.growing("cracks/hashed", fields.hashed);
+  f.growing("cracks/pressed", fields.pressed);
   f.record("cracks/warnings", fields);
 }
 

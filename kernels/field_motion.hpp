@@ -34,6 +34,10 @@ struct FieldMotion {
     const Real* d = data + 4 * slot;
     return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
   }
+  RIVEN_INLINE Vec2 velocity_of(long slot) const {
+    const Real* d = data + 4 * slot;
+    return (momentum ? 1 / double(mass[slot]) : 1) * Vec2{double(d[0]), double(d[1])};
+  }
   /// Velocity before the forces and the impulses whose work is asked for: in the stage `after` those of the whole step.
   RIVEN_INLINE Vec2 first_velocity(long slot, double dt) const {
     const Real* d = data + 4 * slot;

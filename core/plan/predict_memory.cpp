@@ -50,6 +50,8 @@ double bytes_of_node(const Plan& p, double real) {
     bytes += sizeof(int);
   if (p.contact || p.fracture)
     bytes += sizeof(int);
+  if (p.contact_position)
+    bytes += sizeof(double);
   if (p.cracks)
     bytes += 4 * sizeof(int);
   return bytes;

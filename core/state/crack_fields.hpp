@@ -162,6 +162,10 @@ struct CrackFields : CrackLists {
 
   exec::Array<EndOnCrack> ends;  ///< [2 cracks] first and last ends; empty where none lies on a crack
 
+  exec::Array<double> pressed;  ///< [nodes] N s, by which faces pressed in the last momentum update
+                                ///< (pressed_faces.hpp); empty where contact does not ask
+  long pressing = 0;            ///< nodes whose faces pressed
+
   CrackLists former;      ///< as the last trace knew them
   bool relisted = false;  ///< the lists are others since then
 
