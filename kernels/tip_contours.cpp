@@ -16,8 +16,8 @@ namespace {
 constexpr double fastest_fields = 0.6;
 
 /// Cells from a tip that runs to the edges of its core, where no inertia is summed: in a strip whose release is known J
-/// of 16 cells is 1.01, 0.99, 0.97 and 0.97 of it at 0.2, 0.4, 0.6 and 0.8 of the Rayleigh speed, and swings by 5 to 7
-/// %. With 2 cells it is 1.00, 0.99, 0.97, 0.85, and with none 0.92, 0.81, 0.64, 0.40, and swings by 30 %.
+/// of 16 cells is 1.01, 0.99, 0.97 and 0.97 of it at 0.2, 0.4, 0.6 and 0.8 of the Rayleigh speed, give or take 0.07.
+/// With 2 cells it is 1.00, 0.99, 0.97, 0.85; with none 0.92, 0.81, 0.64, 0.40, give or take 0.3.
 constexpr double core_of_running_tip = 3;
 
 /// Share of an edge of the contour that must lie in the solid, besides the opening of the crack itself where it passes;

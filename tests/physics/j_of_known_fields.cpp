@@ -385,7 +385,8 @@ InertiaByHand inertia_by_hand(const Simulation& m, const TipTask& task) {
         acceleration += a.s[i] * b.s[j] * Vec2{q[2], q[3]};
       }
     const Mat2<double> F{p.F[0][k], p.F[1][k], p.F[2][k], p.F[3][k]}, rate = grad * F, H = task.gradient(F);
-    const double mass = task.domain.weight(r) * p.mass[k] / m.state.thickness[p.body[k]];
+    const double core = task.core ? task.core->weight(r) : 0;
+    const double mass = (task.domain.weight(r) - core) * p.mass[k] / m.state.thickness[p.body[k]];
     const Vec2 v = task.running.speed > 0 ? Vec2{p.v[0][k], p.v[1][k]} : Vec2{};  // around a tip at rest it cancels
     const Vec2 part = mass * Vec2{H.xx * acceleration.x + H.yx * acceleration.y - rate.xx * v.x - rate.yx * v.y,
                                   H.xy * acceleration.x + H.yy * acceleration.y - rate.xy * v.x - rate.yy * v.y};
@@ -435,6 +436,8 @@ TEST(JOfKnownFields, InertiaIsThatOfEveryParticleInTheContour) {
           task.turn = {0.8, 0.6};
           task.solid = &solid;
           task.running = RunningTip(solid, speed);
+          if (speed > 0)
+            task.core = core_of(task.domain, 1.5 * scene.cell, scene.cell);
           task.interaction = true;
           std::vector<TipTask> tasks{task, task};
           tasks[1].inertia = true;
