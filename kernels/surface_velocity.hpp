@@ -9,17 +9,22 @@
 //   v(x_s) = v* + L (x_s - x*),    v* = sum m_i N_i v_i / sum m_i N_i,
 // by the gradient of the linear field that fits the nodes around best,
 //   sum W_i (|v_i - v^ - L (x_i - x^)|^2 + lambda |sym L|^2 + mu |skew L|^2) -> min,    W_i = m_i B_i,
-// x^ and v^ being the means with these weights. A rigid motion is met exactly, and so is a homogeneous one. B_i is the
-// quadratic B-spline, whose nodes are spread by half a cell in every direction wherever the point lies, so that L is
-// smooth in x_s; lambda keeps what nodes in one row cannot tell, stretching across the row, out of L, and mu << lambda
-// all where there is a single node. v is the velocity before the forces, an average of the particles' that is sound
-// even where m is tiny; the acceleration f/m is not, and remains mass-weighted.
+// x^ and v^ being the means with these weights. A rigid motion is met exactly, and so is a homogeneous one but for
+// lambda. B_i is the quadratic B-spline, whose nodes are spread by half a cell in every direction wherever the point
+// lies, so that L is smooth in x_s; lambda keeps what nodes in one row cannot tell, stretching across the row, out of
+// L, and mu << lambda all where there is a single node. v is the velocity before the forces, an average of the
+// particles' that is sound even where m is tiny; the acceleration f/m is not, and remains mass-weighted.
 //
 // A force F on the surface goes to the nodes by the transposed of v(x_s), so that the nodes do with it the work that
 // the surface does: with d = x_s - x*, F . L d = sum W_i (G r_i) . v_i, where G is the gradient of the same fit to F
 // d^T, and
 //   f_i = m_i N_i / (sum m N) F + W_i / (sum W) G (x_i - x^).
-// The second part adds up to nothing but the moment of F about x*.
+// The second part adds up to nothing but the moment of F about x*. It sets a node in motion by B_i / (sum W) G r_i,
+// whatever little mass that has. So lambda grows where all mass but a small part of it lies in one row, whose spread
+// across the row, Cq, is small:
+//   lambda = least + (thin h^2)^2 / (Cq + least),   least = 1e-3 h^2,   thin = 0.01,
+// and no node is hurled off by more than 1 / (2 thin) times what F does to the mass around. By `least` alone a corner
+// that draws away from a pressed face takes up as much work as all the faces do.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -49,7 +54,8 @@ struct FittedGradient {
 /// L from C, the mean of r r^T, and Q, that of u r^T (its columns), with r the nodes' offsets from x^ and u their
 /// velocities less v^. `h`: the cell.
 RIVEN_INLINE FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec2 Qx, Vec2 Qy, double h) {
-  const double lambda = 1e-3 * h * h, mu = 1e-9 * h * h;
+  constexpr double thin = 0.01;
+  const double area = h * h, mu = 1e-9 * area;
   // the direction of half the angle of (difference, Cxy)
   const double middle = 0.5 * (Cxx + Cyy), difference = 0.5 * (Cxx - Cyy);
   const double radius = std::sqrt(difference * difference + Cxy * Cxy);
@@ -57,6 +63,7 @@ RIVEN_INLINE FittedGradient fit_gradient(double Cxx, double Cxy, double Cyy, Vec
   const double size = norm(near);
   const Vec2 p = size > 0 ? near * (1 / size) : Vec2{1, 0}, q = turned(p);
   const double Cp = middle + radius, Cq = std::max(0.0, middle - radius);
+  const double least = 1e-3 * area, lambda = least + thin * thin * area * area / (Cq + least);
   const Vec2 Qp = p.x * Qx + p.y * Qy, Qq = q.x * Qx + q.y * Qy;
   // shear g and spin w:  (Cp + Cq + 2 lambda) g + (Cp - Cq) w = S,  (Cp - Cq) g + (Cp + Cq + 2 mu) w = A
   const double spread = Cp + Cq, uneven = Cp - Cq, S = dot(Qq, p) + dot(Qp, q), A = dot(Qp, q) - dot(Qq, p);

@@ -57,5 +57,29 @@ TEST(SurfaceForce, DoesOnNodesTheWorkThatItDoesOnTheSurface) {
   }
 }
 
+/// A force off a row of nodes, above which a node has next to no mass, as at the corner of a body that has been cut
+/// off: however little that is, the node is not set in motion by more than some times what all of them are.
+TEST(SurfaceForce, HurlsNoNodeOff) {
+  const Vec2 F{3, -4};
+  double hardest = 0;
+  for (double mass_above = 1e-9; mass_above < 1; mass_above *= 1.5)
+    for (const double place : {-0.4, 0., 0.3, 0.5}) {
+      const AxisWeights x = axis(0.2), y = axis(place);
+      const auto mass = [&](int i, int j) { return j == 0 ? 1 : i == 1 && j == 1 ? mass_above : 0; };
+      SurfaceSums sums;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          sums.add(mass(i, j) * x.near[i] * y.near[j], mass(i, j) * x.wide[i] * y.wide[j], x.r[i], y.r[j], {}, {});
+      if (!(sums.near > 0.05))
+        continue;
+      const MassAround around(sums);
+      const TurningForce turning(around, F, h);
+      const Vec2 a = (1 / mass_above) * turning.on(mass_above, x.wide[1] * y.wide[1], {x.r[1], y.r[1]});
+      hardest = std::max(hardest, norm(a) * sums.wide / norm(F));
+    }
+  EXPECT_LT(hardest, 50);
+  EXPECT_GT(hardest, 1);
+}
+
 }  // namespace
 }  // namespace riven

@@ -150,27 +150,30 @@ Scene pressed_block() {
   s.cracks[0].traction = TractionSettings{};
   s.cracks[0].traction->pressure = {2e3, [](double t) { return std::min(t / 0.025, 1.0); }, ""};
   s.contact.law = ContactLaw::frictionless;
-  s.fracture.contour = 8;
+  s.fracture.contour = 6;
   s.growth = GrowthRule{};
   s.growth->toughness = 1.4e3;
   return s;
 }
 
 TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
-  const Scene s = pressed_block();
-  const ChosenSpace space;
-  Simulation m(s, space);
-  double worst = 0;
-  while (m.state.clock.time < 0.16) {
-    m.step();
-    m.take_stock();
-    worst = std::max(worst, std::abs(m.state.ledger.energy.relative_error()));
+  for (const int contour : {4, 6, 8, 10}) {  // which take the crack different ways
+    Scene s = pressed_block();
+    s.fracture.contour = contour;
+    const ChosenSpace space;
+    Simulation m(s, space);
+    double worst = 0;
+    while (m.state.clock.time < 0.16) {
+      m.step();
+      m.take_stock();
+      worst = std::max(worst, std::abs(m.state.ledger.energy.relative_error()));
+    }
+    int exits = 0;
+    for (const CrackEvent& e : m.state.events)
+      exits += e.kind == CrackEvent::Kind::exit;
+    EXPECT_EQ(exits, 2);
+    EXPECT_LT(worst, 0.002) << contour;
   }
-  int exits = 0;
-  for (const CrackEvent& e : m.state.events)
-    exits += e.kind == CrackEvent::Kind::exit;
-  EXPECT_EQ(exits, 2);
-  EXPECT_LT(worst, 0.005);
 }
 
 /// New faces bear the pressure within its region, and not beyond.
@@ -178,12 +181,13 @@ TEST(Pressure, StaysInItsRegionAsTheCrackGrows) {
   for (const double right : {0.7, 0.8, 2.}) {  // to the tip, a cell past it, and everywhere
     Scene s = pressed_block();
     s.cracks[0].traction->region = Rectangle{{-1, -1}, {right, 2}};
+    s.growth->toughness = 1.2e3;
     const ChosenSpace space;
     Simulation m(s, space);
     const Cracks& c = m.state.cracks;
-    while (m.state.tips[1].length < 0.17 && m.state.clock.time < 0.16)
+    while (m.state.tips[1].length < 0.2 && m.state.clock.time < 0.16)
       m.step();
-    ASSERT_GE(m.state.tips[1].length, 0.17) << right;
+    ASSERT_GE(m.state.tips[1].length, 0.2) << right;
     long grown = 0;
     for (int k = c.start[0]; k < c.start[1]; ++k) {
       if (c.plane0[k].x < 0.71)
