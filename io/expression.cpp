@@ -165,16 +165,40 @@ void check_characters(const std::string& text) {
   }
 }
 
+/// The number that ends where the word at `pos` begins, blanks left out; empty if something else stands there.
+std::string number_before(const std::string& text, size_t pos) {
+  size_t end = std::min(pos, text.size());
+  while (end > 0 && text[end - 1] == ' ')
+    --end;
+  size_t begin = end;
+  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0 || text[begin - 1] == '.'))
+    --begin;
+  const bool of_name =
+      begin > 0 && (std::isalpha(static_cast<unsigned char>(text[begin - 1])) != 0 || text[begin - 1] == '_');
+  return of_name ? "" : text.substr(begin, end - begin);
+}
+
+/// What to do about a word that is no name.
+std::string advice_on(const std::string& word, size_t pos, const std::string& text, const Constants& constants,
+                      bool of_places) {
+  if (const std::string number = number_before(text, pos); !number.empty())
+    return fmt::format("a quantity is a constant that stands beside the expression: t1 = \"{} {}\", and t1 in it",
+                       number, shown(word));
+  if (word == "if")
+    return "condition ? this : that";
+  const std::string near = nearest(word, names(constants, of_places));
+  return (near.empty() || near == word ? "" : "did you mean '" + near + "'? ") +
+         "A constant of its own stands beside the expression: " + shown(word) + " = \"1 ms\"";
+}
+
 [[noreturn]] void unreadable(const mu::ParserError& e, const std::string& text, const Constants& constants,
                              bool of_places) {
-  std::string advice;
-  if (const std::string& word = e.GetToken(); e.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
-    const std::string near = nearest(word, names(constants, of_places));
-    advice = near.empty() || near == word ? "" : "did you mean '" + near + "'? ";
-    advice += "A constant of its own stands beside the expression: " + shown(word) + " = \"1 ms\"";
-  }
   refuse("the expression cannot be read: " + shown(e.GetMsg()), text,
-         "the named constants, " + listed(names({}, of_places)), advice);
+         "the named constants, " + listed(names({}, of_places)),
+         e.GetCode() == mu::ecUNASSIGNABLE_TOKEN
+             ? advice_on(e.GetToken(), static_cast<size_t>(std::max(0, static_cast<int>(e.GetPos()))), text, constants,
+                         of_places)
+             : "");
 }
 
 void check(const std::string& text, const Constants& constants) {
