@@ -43,6 +43,7 @@ class Growth {
   }
 
   void check() {
+    take_mean();
     const long interval = check_interval(particle_, limit_, s_.clock.dt);
     const long alone = steps_alone();
     tip_.due = s_.clock.step + (tip_.running ? interval : std::max(interval, alone));
@@ -68,6 +69,22 @@ class Growth {
   }
 
  private:
+  /// What drives a tip that runs, as the mean over its checks since it grew last.
+  void take_mean() {
+    if (!tip_.running || !tip_.sound) {
+      tip_.checks = 0;
+      return;
+    }
+    const double part = 1. / static_cast<double>(++tip_.checks);
+    const auto blend = [&](double& mean, double& now) {
+      mean += part * (now - mean);
+      now = mean;
+    };
+    blend(tip_.mean_I, tip_.drive_I);
+    blend(tip_.mean_II, tip_.drive_II);
+    blend(tip_.mean_release, tip_.release);
+  }
+
   Vec2 direction(const Tip& t) const {
     const Vec2 d =
         s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - s_.cracks.plane[s_.cracks.next_to_end(t.crack, t.last)];
@@ -232,6 +249,7 @@ class Growth {
       record(tip_, CrackEvent::Kind::start, x_, -1);
     }
     tip_.grew = now_;
+    tip_.checks = 0;
     tip_.length += segment;
     const double released = std::max(0., tip_.release) * segment * thickness_;
     tip_.released += released;

@@ -21,6 +21,9 @@ struct Tip {
   double grew = 0;       ///< s, time at which it grew last
   double load = 0;       ///< how near it was to growth at its last check; see growth_load
   long checked = 0;      ///< Clock::step of that
+  /// of a tip that runs: checks since it grew last, and the means of drive_I, drive_II and release over these
+  long checks = 0;
+  double mean_I = 0, mean_II = 0, mean_release = 0;
 
   // the last evaluation of J
   long step = -1;            ///< Clock::step of it
@@ -28,7 +31,8 @@ struct Tip {
   double J1 = 0, J2 = 0;     ///< J/m^2, along the grid's axes
   double K_I = 0, K_II = 0;  ///< Pa m^0.5, J shared out by the interaction integral where it holds, else by the opening
   double O_I = 0, O_II = 0;  ///< Pa m^0.5, J shared out by the opening of the crack behind the tip
-  /// Pa m^0.5, what growth goes by: intensities of a tip at rest, for which K_Ic = sqrt(E' J_Ic)
+  /// Pa m^0.5, what growth goes by: intensities of a tip at rest, for which K_Ic = sqrt(E' J_Ic). After a check of a
+  /// tip that runs these are the means
   double drive_I = 0, drive_II = 0;
   double release = 0;  ///< J/m^2, that go with them
   /// Pa m^0.5, by the interaction integral; NaN where another crack or a bend is in the contour

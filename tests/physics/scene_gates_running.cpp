@@ -2,6 +2,7 @@
 // cracks, which run at up to 0.7 of the shear wave speed, are abreast, J at one time is that of every contour, as
 // inertia between them has its part. The control leaves that out.
 #include <cmath>
+#include <tuple>
 
 #include "core/scene/schedule.hpp"
 #include "io/probes.hpp"
@@ -65,10 +66,10 @@ TEST(RunningTip, ReleasesTheSameByAllContours) {
                apart_without = J.mean(4) / J.mean(3) - 1;
   report("tip that runs: mean J by 16 cells over that by 8, less 1", apart, "0.02");
   report("tip that runs: mean J by 16 cells over that by 4, less 1", near, "0.1");
-  report("tip that runs, without inertia: mean J by 16 cells over that by 8, less 1", apart_without, "more than 0.08");
+  report("tip that runs, without inertia: mean J by 16 cells over that by 8, less 1", apart_without, "more than 0.05");
   EXPECT_LT(std::abs(apart), 0.02);
   EXPECT_LT(std::abs(near), 0.1);
-  EXPECT_GT(apart_without, 0.08);
+  EXPECT_GT(apart_without, 0.05);
 }
 
 // `running_strip` at 0.2 to 0.8 of the Rayleigh speed, over 40 mm of its middle. What the strip ahead holds is half of
@@ -112,6 +113,25 @@ TEST(RunningTip, ReleasesWhatTheStripAheadHolds) {
     EXPECT_NEAR(J.mean(1), held, 0.05 * held);
     EXPECT_LT(J.swing(1), 0.12 * held);
     EXPECT_NEAR(drive, held, 0.06 * held);
+  }
+}
+
+// What drives a tip swings by 40 % with each of its segments: by the peaks alone it would run through a strip that
+// holds 0.85 of its toughness. Its start, when the faces are let go, is no quiet one.
+TEST(RunningTip, StopsWhereTheStripHoldsLessThanItsToughness) {
+  constexpr double held = 639;  // J/m^2, as the strip is stretched on these cells
+  for (const auto& [ratio, least, most] : {std::tuple{0.9, 0., 6e-3}, {0.95, 0., 10e-3}, {1.05, 40e-3, 1.}}) {
+    const Scene s = shipped("running_strip", {fmt::format("growth.toughness={} J/m^2", held / ratio),
+                                              "growth.speed_limit=900 m/s", "solver.time=0.55 ms", "output.frames=0"});
+    const test::ChosenSpace space;
+    Simulation m(s, space);
+    const Tip& tip = m.state.tips[m.state.tips[0].open ? 0 : 1];
+    while (!m.finished())
+      m.step();
+    report(fmt::format("strip that holds {} of the toughness: way of the tip, mm", ratio), 1e3 * tip.length,
+           fmt::format("{} to {}", 1e3 * least, 1e3 * most));
+    EXPECT_GE(tip.length, least);
+    EXPECT_LE(tip.length, most);
   }
 }
 
