@@ -41,8 +41,8 @@ std::string name_of(double b) {
 
 /// V crosses the crack inside the contour, where the opening jumps: without eq. 12 (and the faces of V) J is the jump
 /// times the pressure too large.
-void expect_jump_left_out(Plate& plate, const std::string& what, int contour, double reference) {
-  expect_J(fmt::format("{}, {} cells around the crossing", what, contour), plate.tip(contour).J, reference, 0.05);
+void expect_jump_left_out(Plate& plate, const std::string& what, int contour, double reference, double limit) {
+  expect_J(fmt::format("{}, {} cells around the crossing", what, contour), plate.tip(contour).J, reference, limit);
   const double naive = plate.tip(contour, JMethod::pijc).J / reference;
   report(
       fmt::format("{}, {} cells: J with all of eq. 11 and without the faces of V, over its reference", what, contour),
@@ -55,7 +55,7 @@ TEST(PressureGates, CrackAcross) {
   const std::string what = name_of(15);
   print(what, plate.hold());
   expect_J(what + ", 4 cells", plate.tip(4).J, 1175.517, 0.05);
-  expect_jump_left_out(plate, what, 24, 1175.517);
+  expect_jump_left_out(plate, what, 24, 1175.517, 0.05);
 }
 
 TEST(PressureTables, DISABLED_CrackAcross) {
@@ -66,15 +66,17 @@ TEST(PressureTables, DISABLED_CrackAcross) {
     expect_J(name_of(b) + ", 2 mm", plate.tip(4).J, reference, 0.05);
     expect_J(name_of(b) + ", 8 mm", plate.tip(16).J, reference, 0.05);
     if (b == 20)
-      expect_jump_left_out(plate, name_of(b), 24, reference);
+      expect_jump_left_out(plate, name_of(b), 24, reference, 0.05);
   }
 }
 
-/// 2 mm from the crossing: 8 mm hold it, 2 mm do not.
+/// 2 mm from the crossing: 8 mm hold it, 2 mm do not. What is left out is four times as much as what remains, and known
+/// to 1.5 % on these cells: J by 8 mm is 6.5 % beyond that by 2 mm, 3.1 % on cells of half the size, of first order,
+/// where that by 2 mm stays within 1 %.
 TEST(PressureTables, DISABLED_CrossingNearTheTip) {
   Plate plate = plate_with_V(23, {});
   print(name_of(23), plate.hold());
-  expect_jump_left_out(plate, name_of(23), 16, plate.tip(4).J);
+  expect_jump_left_out(plate, name_of(23), 16, plate.tip(4).J, 0.075);
   const Tip tip = plate.tip(16);
   report(name_of(23) + ", K_II over K_I, by the opening up to V", tip.K_II / tip.K_I, "0.01");
   EXPECT_TRUE(tip.crossed);
