@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <regex>
 #include <string_view>
 #include <vector>
 
@@ -167,15 +168,10 @@ void check_characters(const std::string& text) {
 
 /// The number that ends where the word at `pos` begins, blanks left out; empty if something else stands there.
 std::string number_before(const std::string& text, size_t pos) {
-  size_t end = std::min(pos, text.size());
-  while (end > 0 && text[end - 1] == ' ')
-    --end;
-  size_t begin = end;
-  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0 || text[begin - 1] == '.'))
-    --begin;
-  const bool of_name =
-      begin > 0 && (std::isalpha(static_cast<unsigned char>(text[begin - 1])) != 0 || text[begin - 1] == '_');
-  return of_name ? "" : text.substr(begin, end - begin);
+  static const std::regex number(R"((?:^|[^\w.])((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) *$)");
+  std::smatch found;
+  const std::string before = text.substr(0, pos);
+  return std::regex_search(before, found, number) ? found[1].str() : "";
 }
 
 /// What to do about a word that is no name.
