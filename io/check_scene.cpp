@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/checks.hpp"
+#include "io/history_columns.hpp"
 
 namespace riven {
 
@@ -22,6 +23,14 @@ void check_names(const Scene& s, const std::vector<Part>& parts, const std::stri
     if (!seen.insert(p.name).second)
       refuse(s, kind + " " + p.name, fmt::format("two parts of kind {} have the same name", kind), p.name,
              "a name for each", "");
+}
+
+/// Probes stand in columns beside the quantities of the run.
+void check_columns(const Scene& s) {
+  for (const Probe& p : s.probes)
+    if (is_quantity(p.name))
+      refuse(s, "probe " + p.name, "history.csv has a column of this name already", p.name, "a name of its own",
+             fmt::format("name = \"{}_1\"", p.name));
 }
 
 /// Results name grips and fixed nodes alike.
@@ -106,6 +115,7 @@ void check_scene(const Scene& s) {
   check_names(s, s.loads, "load");
   check_names(s, s.cracks, "crack");
   check_names(s, s.probes, "probe");
+  check_columns(s);
   check_grid(s);
   check_symmetry(s);
   check_solids(s);

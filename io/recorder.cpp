@@ -3,23 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/scene/names.hpp"
+#include "io/history_columns.hpp"
 #include "io/tip_report.hpp"
 
 namespace riven {
-
-namespace {
-
-/// The figures with a column of their own; energy and momentum are among the ledger's.
-std::vector<Watched> watched(const Plan& plan) {
-  std::vector<Watched> list{Watched::compression, Watched::expansion, Watched::velocity_difference};
-  if (plan.contact)
-    list.push_back(Watched::penetration);
-  return list;
-}
-
-}  // namespace
 
 template <class Real>
 Recorder<Real>::Recorder(const std::filesystem::path& folder, const SimulationOf<Real>& simulation,
@@ -65,43 +52,18 @@ std::vector<Summary::Value> Recorder<Real>::probes() const {
 
 template <class Real>
 std::vector<HistoryColumn> Recorder<Real>::columns() const {
-  std::vector<HistoryColumn> c{{"time", "s"},
-                               {"dt", "s"},
-                               {"kinetic", "J"},
-                               {"strain", "J"},
-                               {"external_work", "J"},
-                               {"damping", "J"},
-                               {"contact", "J"},
-                               {"numerical", "J"},
-                               {"momentum_error", ""},
-                               {"momentum_x", "kg m/s"},
-                               {"momentum_y", "kg m/s"},
-                               {"angular_momentum", "kg m^2/s"},
-                               {"angular_momentum_error", ""}};
-  for (const Watched which : watched(m_.plan))
-    c.push_back({std::string(name_of(which)), which == Watched::velocity_difference ? "m/s" : ""});
-  if (m_.plan.constraints)
-    c.push_back({"capture", "J"});
-  if (m_.plan.transfer != Transfer::flip)
-    c.push_back({"transfer", "J"});
-  if (m_.plan.tractions)
-    c.insert(c.end(), {{"cohesive", "J"}, {"debonding", "J"}});
+  std::vector<HistoryColumn> c = quantity_columns(m_.plan);
   for (const ConstraintOwner& o : m_.state.constraints.owners)
     for (const auto& [what, unit] :
          {std::pair{"travel_x", "m"}, {"travel_y", "m"}, {"reaction_x", "N"}, {"reaction_y", "N"}})
       c.push_back({o.name + " " + what, unit});
   if (m_.plan.growth)
-    c.push_back({"fracture", "J"});
+    c.push_back(growth_column());
   const auto add = [&](const std::vector<HistoryColumn>& more) { c.insert(c.end(), more.begin(), more.end()); };
   add(tip_columns(m_.state.tips, m_.state.cracks));
   for (const FractureReading& r : m_.scene.readings)
     add(reading_columns(r, m_.state.tips, m_.state.cracks));
-  for (const HistoryColumn& probe : probes_.columns()) {
-    if (std::any_of(c.begin(), c.end(), [&](const HistoryColumn& other) { return other.name == probe.name; }))
-      fail({Exit::bad_input, "history.csv has a column of this name already", place(m_.scene, "probe " + probe.name),
-            probe.name, "a name of its own", "another name for the probe"});
-    c.push_back(probe);
-  }
+  add(probes_.columns());
   return c;
 }
 

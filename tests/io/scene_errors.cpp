@@ -314,6 +314,8 @@ TEST(BadSceneParts, EachIsRefused) {
       {"[[probe]]\nkind = \"displacement\"\n", "missing key 'point'", "add point"},
       {"[[probe]]\nkind = \"velocity\"\npoint = [\"-3 mm\", \"0 mm\"]\n", "lies on no body", "in a body"},
       {"[[probe]]\nkind = \"stress\"\npoint = [\"3 mm\", \"0 mm\"]\naxis = \"x\"\n", "has no axis", ""},
+      {"[[probe]]\nname = \"strain\"\nkind = \"reaction\"\ntarget = \"top\"\n", "column of this name", "of its own"},
+      {"[[probe]]\nname = \"fracture\"\nkind = \"reaction\"\ntarget = \"top\"\n", "column of this name", "fracture_1"},
       {"[output]\nfields = [\"fringes\"]\n", "unknown field 'fringes'", "'fringe'"},
       {"[output]\nfields = [\"fringe\"]\n", "needs its constant", "fringe_constant"},
       {"[contact]\nv_sep = 1.2\n", "apart and in contact", "at most v_contact"},
