@@ -75,8 +75,8 @@ class Tracer {
     const Vec2 x{in_.x[p], in_.y[p]};
     double used = norm(x - m.x) + (tile.travel - m.travel);
     const bool turned = tile.turned && m.cell >= 0 && in_.turned[m.cell] == in_.traces;
-    if (!m.known || turned || !(used < m.clear || used == 0)) {
-      m.known = 1;
+    const bool left = m.known == in_its_cell && cell_of(place_x(p), place_y(p)) != m.cell;
+    if (m.known == unknown || turned || left || !(used < m.clear || used == 0)) {
       m.x = x;
       m.travel = tile.travel;
       used = 0;
@@ -84,7 +84,8 @@ class Tracer {
     } else if (!moves_known() || !(tile.path < m.weighs)) {
       weigh(p, m);
     }
-    return std::min(m.weighs, tile.path + (m.clear - used));
+    const double clear = m.clear - used;
+    return std::min(m.weighs, tile.path + (m.known == in_its_cell ? std::min(clear, within_cell(p)) : clear));
   }
 
  private:
@@ -100,6 +101,11 @@ class Tracer {
   RIVEN_FN int cell_of(double X, double Y) const {
     const int i = Shape::cell(X), j = Shape::cell(Y);
     return i < 1 || j < 1 || i >= lattice().nx - 1 || j >= lattice().ny - 1 ? -1 : j * lattice().nx + i;
+  }
+
+  /// How far a particle that is on the grid may move before it leaves its cell, m.
+  RIVEN_FN double within_cell(long p) const {
+    return lattice().h * std::min(Shape::to_next_cell(place_x(p)), Shape::to_next_cell(place_y(p))) - rounding_;
   }
 
   RIVEN_FN bool cracks_around(int cell) const {
@@ -122,21 +128,23 @@ class Tracer {
       m.weighs = weights_stay(p);
   }
 
-  /// Adds the crossings of a particle, and finds the clearance of all its paths.
+  /// Adds the crossings of a particle, and finds the clearance of all its paths. Where cells see no cracks these may
+  /// move as they will: a cell that comes to see one is turned.
   RIVEN_FN void look_around(long p, CrossingMemory& m) {
-    const double X = place_x(p), Y = place_y(p);
-    m.cell = cell_of(X, Y);
-    m.clear = 0;
+    m.cell = cell_of(place_x(p), place_y(p));
+    m.known = in_its_cell;
+    m.clear = never;
     m.weighs = never;
-    if (m.cell >= 0) {
-      const double inside = lattice().h * std::min(Shape::to_next_cell(X), Shape::to_next_cell(Y));
-      if (in_.lists.cell_index[m.cell] >= 0) {
-        clear2_ = inside * inside;
-        trace_all(p, m);
-        m.clear = std::min((1 - 1e-9) * std::sqrt(clear2_) - rounding_, path_clearance());
-      } else {
-        m.clear = inside - rounding_ + (cracks_around(m.cell) ? 0 : lattice().h);
-      }
+    if (m.cell < 0) {
+      m.known = roaming;
+      m.clear = 0;
+    } else if (in_.lists.cell_index[m.cell] >= 0) {
+      clear2_ = lattice().h * lattice().h;
+      trace_all(p, m);
+      m.clear = std::min((1 - 1e-9) * std::sqrt(clear2_) - rounding_, path_clearance());
+    } else if (!cracks_around(m.cell)) {
+      m.known = roaming;
+      m.clear = within_cell(p) + lattice().h;
     }
   }
 

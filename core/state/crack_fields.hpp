@@ -69,18 +69,25 @@ struct CrossingRecord {
   bool operator==(const CrossingRecord&) const = default;
 };
 
+/// CrossingMemory::known.
+enum Known : int {
+  unknown = 0,
+  in_its_cell = 1,  ///< as long as the particle stays in the cell of its trace
+  roaming = 2,      ///< in the cells around it, too
+};
+
 /// What the last trace of a particle found, and for how long that holds.
 struct CrossingMemory {
   int first = 0;  ///< its records in CrackFields::records
   int count = 0;
-  int room = 0;          ///< records that fit there
-  int cell = -1;         ///< of the particle, or -1: off the grid
-  int known = 0;         ///< 1 once traced
+  int room = 0;   ///< records that fit there
+  int cell = -1;  ///< of the particle, or -1: off the grid
+  int known = unknown;
   unsigned weighed = 0;  ///< a bit for each node on which it has a weight, where that matters
   double weighs = 0;     ///< TileTrace::path up to which these stay
-  double clear = 0;      ///< m, sum of the moves of the particle and the cracks up to which the crossings stay
-  double travel = 0;     ///< TileTrace::travel of that time
-  Vec2 x;                ///< the particle's position then
+  double clear = 0;   ///< m, sum of the moves of the particle and the cracks up to which the crossings stay in a cell
+  double travel = 0;  ///< TileTrace::travel of that time
+  Vec2 x;             ///< the particle's position then
 };
 
 /// How far a node is from the segments that it may see. A node that is all but on one segment, or on the joint of two,
