@@ -268,7 +268,10 @@ class FaceIntegral {
     return 0.5 * (at[k] + at[k + 1]);
   }
 
-  static constexpr double straight = 1e-3;  ///< sine of the angle to the tip's heading up to which a face is in line
+  /// Sine of the angle to the tip's heading up to which a face is in line. Faces next to a contour of 4 cells would add
+  /// 0.1 % to J of a crack ten cells long where they lie at that angle and the solid on one side is free of stress;
+  /// with 1e-3 J of ten cracks in a plate differs by 6e-5 at most, and takes twice as long.
+  static constexpr double straight = 1e-2;
   static constexpr double bent = 0.2;       ///< and from which on the crack is bent for the interaction integral
   static constexpr double torn = 2;         ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
