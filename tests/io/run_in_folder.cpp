@@ -198,7 +198,7 @@ TEST(RunInFolder, TwoColumnsOfOneNameAreRefusedBeforeAnythingIsWritten) {
                                             "[[probe]]\nname = \"kinetic\"\nkind = \"crack_opening\"\n"
                                             "target = \"crack_1\"\n");
   const Program refused(run.arguments(), run.printed());
-  run.expect(refused.end(), 2, {"small.toml:25", "probe", "kinetic", "another name"});
+  run.expect(refused.end(), 2, {"small.toml:25", "probe", "kinetic", "kinetic_1"});
   EXPECT_EQ(sample::text_of(run.results() / "summary.json"), there);
 }
 
