@@ -28,12 +28,12 @@ struct Largest {
 template <class Law, class Real>
 Speeds largest_speeds(const exec::Space& space, const BodyLookup<Law>& law, const Particles<Real, 2>& particles) {
   const ParticleReads<Real> p = reads(particles);
-  return exec::parallel_reduce<Largest>(space, "time step", particles.count(),
-                                        [=] RIVEN_KERNEL(long i) {
-                                          const double c = law.of(i).wave_speed(law_state<Law>(p, i)),
-                                                       v = std::hypot(p.vx[i], p.vy[i]);
-                                          return Largest{{c, v, c + v}};
-                                        })
+  return exec::parallel_reduce<Largest>(
+             space, "time step", particles.count(),
+             [=] RIVEN_KERNEL(long i) {
+               const double c = law.of(i).wave_speed(law_state<Law>(p, i)), v = norm({p.vx[i], p.vy[i]});
+               return Largest{{c, v, c + v}};
+             })
       .s;
 }
 
