@@ -75,8 +75,8 @@ class Tracer {
     const Vec2 x{in_.x[p], in_.y[p]};
     double used = norm(x - m.x) + (tile.travel - m.travel);
     const bool turned = tile.turned && m.cell >= 0 && in_.turned[m.cell] == in_.traces;
-    const bool left = m.known == in_its_cell && cell_of(place_x(p), place_y(p)) != m.cell;
-    if (m.known == unknown || turned || left || !(used < m.clear || used == 0)) {
+    const bool left = m.known == Known::in_its_cell && cell_of(place_x(p), place_y(p)) != m.cell;
+    if (m.known == Known::nowhere || turned || left || !(used < m.clear || used == 0)) {
       m.x = x;
       m.travel = tile.travel;
       used = 0;
@@ -85,7 +85,7 @@ class Tracer {
       weigh(p, m);
     }
     const double clear = m.clear - used;
-    return std::min(m.weighs, tile.path + (m.known == in_its_cell ? std::min(clear, within_cell(p)) : clear));
+    return std::min(m.weighs, tile.path + (m.known == Known::in_its_cell ? std::min(clear, within_cell(p)) : clear));
   }
 
  private:
@@ -132,18 +132,18 @@ class Tracer {
   /// move as they will: a cell that comes to see one is turned.
   RIVEN_FN void look_around(long p, CrossingMemory& m) {
     m.cell = cell_of(place_x(p), place_y(p));
-    m.known = in_its_cell;
+    m.known = Known::in_its_cell;
     m.clear = never;
     m.weighs = never;
     if (m.cell < 0) {
-      m.known = roaming;
+      m.known = Known::roaming;
       m.clear = 0;
     } else if (in_.lists.cell_index[m.cell] >= 0) {
       clear2_ = lattice().h * lattice().h;
       trace_all(p, m);
       m.clear = std::min((1 - 1e-9) * std::sqrt(clear2_) - rounding_, path_clearance());
     } else if (!cracks_around(m.cell)) {
-      m.known = roaming;
+      m.known = Known::roaming;
       m.clear = within_cell(p) + lattice().h;
     }
   }

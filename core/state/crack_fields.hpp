@@ -69,11 +69,11 @@ struct CrossingRecord {
   bool operator==(const CrossingRecord&) const = default;
 };
 
-/// CrossingMemory::known.
-enum Known : int {
-  unknown = 0,
-  in_its_cell = 1,  ///< as long as the particle stays in the cell of its trace
-  roaming = 2,      ///< in the cells around it, too
+/// Where what a trace found holds.
+enum class Known : int {
+  nowhere,
+  in_its_cell,  ///< as long as the particle stays in the cell of its trace
+  roaming,      ///< in the cells around it, too
 };
 
 /// What the last trace of a particle found, and for how long that holds.
@@ -82,7 +82,7 @@ struct CrossingMemory {
   int count = 0;
   int room = 0;   ///< records that fit there
   int cell = -1;  ///< of the particle, or -1: off the grid
-  int known = unknown;
+  Known known = Known::nowhere;
   unsigned weighed = 0;  ///< a bit for each node on which it has a weight, where that matters
   double weighs = 0;     ///< TileTrace::path up to which these stay
   double clear = 0;   ///< m, sum of the moves of the particle and the cracks up to which the crossings stay in a cell

@@ -380,7 +380,7 @@ void check_memory() {
                        normals_of(f, f.node_index[n.node], k) == normals_of(fresh, fresh.node_index[n.node], k)));
       }
       crack_scene::each_known(f, p.tiles, [&](int i, const CrossingMemory& m) {
-        if (m.known && !(m.x == Vec2{p.x[0][i], p.x[1][i]})) {
+        if (m.known != Known::nowhere && !(m.x == Vec2{p.x[0][i], p.x[1][i]})) {
           ++remembered;
           crossing += m.count > 0;
         }
