@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "core/exec/config.hpp"
+#include "core/math/power.hpp"
 #include "core/math/tensor.hpp"
 #include "core/scene/scene.hpp"
 
@@ -81,7 +82,7 @@ struct LinearElastic {
   }
   /// The law is linear in the logarithmic strain: per present length, stiffness falls and density falls with J.
   RIVEN_INLINE Real wave_speed(const LawState<Real>&) const { return std::sqrt(lambda + Real(2) * mu); }
-  RIVEN_INLINE double thickness_ratio(double J) const { return std::pow(J, double(-lateral)); }
+  RIVEN_INLINE double thickness_ratio(double J) const { return power_near_one(J, double(-lateral)); }
   RIVEN_INLINE Real stress_zz(const LawState<Real>& p) const { return zz * (p.xx + p.yy); }
 };
 
