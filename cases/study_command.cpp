@@ -67,9 +67,9 @@ void print_setting(const study::Study& s, const study::Members& members, const s
   const std::vector<study::Point>& points = a.results[result].points;
   const std::optional<size_t> k = study::cheapest(a.results[result].settled, tolerance);
   if (!k)
-    fail({Exit::bad_input, fmt::format("no member of the study comes within {:.3g} %", 100 * tolerance), s.path,
+    fail({Exit::bad_input, fmt::format("no setting of the study comes within {:.3g} %", 100 * tolerance), s.path,
           s.results[result].name, "", "a finer choice, or a larger tolerance"});
-  const std::vector<std::string> set = study::settings_of(s, members, *k);
+  const std::vector<std::string> set = study::keys_of(s, members, a.settings[*k]);
   std::vector<std::string> all = s.set;
   all.insert(all.end(), set.begin(), set.end());
   fmt::print("# {} within {:.3g} %: error {:.2g} %, {:.3g} s\n# {}\n{}", s.results[result].name, 100 * tolerance,

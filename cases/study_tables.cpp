@@ -29,48 +29,72 @@ size_t longest(const std::vector<std::string>& texts) {
   return most;
 }
 
+/// The labels of the methods below that of their column.
+std::vector<std::string> method_column(const Assessment& a) {
+  std::vector<std::string> labels{"method"};
+  for (const Method& m : a.methods)
+    labels.push_back(m.label);
+  return labels;
+}
+
 void print_methods(const Study& s, const Assessment& a, const ResultReport& r) {
   if (!s.refined() || a.methods.empty())
     return;
   const std::string& size = s.axes[*s.refined()].name;
-  std::vector<std::string> labels{"method"};
-  for (const Method& m : a.methods)
-    labels.push_back(m.label);
-  const size_t width = longest(labels);
-  fmt::print("\n  {:<{}}  {:>10}  {:>10}   error from the coarsest to the finest {}\n", "method", width, "order",
-             "cost", size);
+  const size_t width = longest(method_column(a));
+  fmt::print("\n  {:<{}}  {:>10}  {:>10}   {}error from the coarsest to the finest {}\n", "method", width, "order",
+             "cost", s.problem() ? "largest " : "", size);
   for (size_t k = 0; k < a.methods.size(); ++k) {
     fmt::print("  {:<{}}  {:>10}  {:>10}  ", a.methods[k].label, width, shown(r.fits[k].order), shown(r.fits[k].cost));
-    for (const size_t m : a.methods[k].members)
+    for (const size_t m : a.methods[k].settings)
       fmt::print(" {:>8}", percent(r.points[m].error));
     fmt::print("\n");
   }
   fmt::print("  (order: error ~ {0}^order; cost: seconds ~ {0}^-cost)\n", size);
 }
 
+/// The error of each setting in each problem.
+void print_problems(const Study& s, const Assessment& a, const ResultReport& r) {
+  if (!s.problem())
+    return;
+  const Axis& axis = s.axes[*s.problem()];
+  std::vector<std::string> labels{"error by " + axis.name};
+  for (const Setting& setting : a.settings)
+    labels.push_back(setting.label);
+  const size_t width = longest(labels);
+  fmt::print("\n  {:<{}}", labels.front(), width);
+  for (const Choice& c : axis.choices)
+    fmt::print("  {:>{}}", c.label, std::max<size_t>(8, c.label.size()));
+  fmt::print("\n");
+  for (const Setting& setting : a.settings) {
+    fmt::print("  {:<{}}", setting.label, width);
+    for (size_t p = 0; p < axis.choices.size(); ++p)
+      fmt::print("  {:>{}}", percent(r.taken[setting.members[p]].error),
+                 std::max<size_t>(8, axis.choices[p].label.size()));
+    fmt::print("\n");
+  }
+}
+
 /// Along which of the refined axis the methods run to their end, where some do not.
 void print_stands(const Study& s, const Members& members, const Assessment& a) {
   if (!s.refined() || std::none_of(a.methods.begin(), a.methods.end(), [](const Method& m) { return m.failed; }))
     return;
-  const Axis& axis = s.axes[*s.refined()];
-  std::vector<std::string> labels{"method"};
-  for (const Method& m : a.methods)
-    labels.push_back(m.label);
-  const size_t width = longest(labels);
-  fmt::print("\n{:<{}}  runs to its end up to {}\n", "method", width, axis.name);
+  const size_t width = longest(method_column(a));
+  fmt::print("\n{:<{}}  runs to its end up to {}\n", "method", width, s.axes[*s.refined()].name);
   for (const Method& m : a.methods)
     fmt::print("{:<{}}  {}\n", m.label, width,
-               m.stands ? axis.choices[members.members[*m.stands].choice[*s.refined()]].label : "none");
+               m.stands ? choice_of(s, members, a.settings[*m.stands], *s.refined()).label : "none");
 }
 
 void print_cheapest(const Assessment& a, const ResultReport& r) {
   fmt::print("\n  cheapest setting within\n");
   for (const double tolerance : tolerances) {
     const std::optional<size_t> k = cheapest(r.settled, tolerance);
-    fmt::print("  {:>5.0f} %  {}\n", 100 * tolerance,
-               k ? fmt::format("{}: {}, error {}, {} at most when finer", a.labels[*k], format_time(r.points[*k].cost),
-                               percent(r.points[*k].error), percent(r.settled[*k].error))
-                 : "none of these");
+    fmt::print(
+        "  {:>5.0f} %  {}\n", 100 * tolerance,
+        k ? fmt::format("{}: {}, error {}, {} at most when finer", a.settings[*k].label, format_time(r.points[*k].cost),
+                        percent(r.points[*k].error), percent(r.settled[*k].error))
+          : "none of these");
   }
 }
 
@@ -81,6 +105,7 @@ void print_result(const Study& s, const Assessment& a, const Result& result, con
   for (const Taken& t : r.taken)
     unit = unit.empty() ? t.unit : unit;
   fmt::print("\n{}: {} [{}], held against {}\n", result.name, result.column, unit, r.reference);
+  print_problems(s, a, r);
   print_methods(s, a, r);
   print_cheapest(a, r);
 }

@@ -218,6 +218,10 @@ std::vector<std::string> Table::values(const char* key) const {
   return list;
 }
 
+std::vector<std::string> Table::one_or_more(const char* key) const {
+  return need(key).is_array() ? values(key) : std::vector<std::string>{value(key)};
+}
+
 size_t Table::one_of(const char* key, const std::vector<std::string>& names, std::optional<size_t> fallback) const {
   if (fallback && absent(key, names[*fallback]))
     return *fallback;

@@ -58,10 +58,14 @@ class Table {
   std::string value(const char* key) const;
   /// The items of an array, each likewise.
   std::vector<std::string> values(const char* key) const;
+  /// The same, or a single one that does not stand in an array.
+  std::vector<std::string> one_or_more(const char* key) const;
   /// A quantity in SI units; `said` is how a fallback is shown when it stands for something else.
   double quantity(const char* key, const Dimension& d, Range allowed) const;
   double quantity(const char* key, const Dimension& d, Range allowed, double fallback,
                   const char* said = nullptr) const;
+  /// An array of quantities, or a single one.
+  std::vector<double> quantities(const char* key, const Dimension& d, Range allowed) const;
   /// A toughness in Pa m^0.5, greater than 0.
   double toughness(const char* key) const;
   /// Two plain numbers, not both 0, made a vector of unit length.

@@ -41,6 +41,15 @@ double Table::quantity(const char* key, const Dimension& d, Range allowed, doubl
   return absent(key, said ? said : si_text(fallback, d)) ? fallback : quantity(key, d, allowed);
 }
 
+std::vector<double> Table::quantities(const char* key, const Dimension& d, Range allowed) const {
+  if (!need(key).is_array())
+    return {quantity(key, d, allowed)};
+  std::vector<double> list;
+  for (const toml::node& item : *need(key).as_array())
+    list.push_back(checked(key, quantity_of(item, key, d), allowed, d.si));
+  return list;
+}
+
 double Table::toughness(const char* key) const {
   const toml::node& node = need(key);
   if (!node.is_string())

@@ -2,9 +2,10 @@
 
     python3 riven_study.py results/sent_j
 
-One picture for each result of the study, RESULT.png, from study.json in the folder. Curves join the members of a method
-along the refined axis; where there are many, they share colours by the first of the other axes. What failed is listed
-below the picture, and shown in a second one, RESULT_map.png, by method and place on the refined axis.
+One picture for each result of the study, RESULT.png, from study.json in the folder. Curves join the settings of a method
+along the refined axis; where there are many, they share colours by the first of the other axes. Where the study has
+several problems, the error is the largest of them, and RESULT_problems.png shows each. What failed is listed below the
+picture, and shown in another one, RESULT_map.png, by method and place on the refined axis.
 """
 
 import argparse
@@ -32,17 +33,23 @@ def nan(x):
     return float("nan") if x is None else x
 
 
-def wall(member):
-    return float(np.median(member["wall_seconds"])) if member["wall_seconds"] else float("nan")
+def axis_of(study, kind):
+    """The number of the axis that is "refined", or the "problem"; none where there is none."""
+    return next((n for n, axis in enumerate(study["axes"]) if axis[kind]), None)
+
+
+def choice_of(study, setting):
+    """The choices that its members share; that of the problem is the first one's."""
+    return study["members"][study["settings"][setting]["members"][0]]["choice"]
 
 
 def styles(study):
-    """A colour, a marker and a line for each method, by the choices of the first three axes that are not refined."""
-    axes = [n for n, axis in enumerate(study["axes"]) if not axis["refined"]]
+    """A colour, a marker and a line for each method, by the choices of the first three axes that tell methods apart."""
+    axes = [n for n, axis in enumerate(study["axes"]) if not axis["refined"] and not axis["problem"]]
     palette = plt.get_cmap("tab10").colors
     of = {}
     for number, method in enumerate(study["methods"]):
-        choice = study["members"][method["members"][0]]["choice"]
+        choice = choice_of(study, method["settings"][0])
         place = [choice[a] for a in axes[:3]] if axes else [number]
         place += [0] * (3 - len(place))
         of[number] = {
@@ -55,18 +62,18 @@ def styles(study):
 
 def draw_result(study, result, out, dpi):
     name = result["name"]
-    members = study["members"]
-    errors = [nan(m["results"][name]["error"]) for m in members]
+    costs = [nan(s["cost"]) for s in result["settings"]]
+    errors = [nan(s["error"]) for s in result["settings"]]
     figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
-    refined = any(axis["refined"] for axis in study["axes"])
+    refined = axis_of(study, "refined") is not None
     for number, (method, style) in enumerate(zip(study["methods"], styles(study).values())):
-        good = [k for k in method["members"] if np.isfinite(errors[k]) and members[k]["status"] == "done"]
+        good = [k for k in method["settings"] if np.isfinite(errors[k])]
         label = method["label"] or "all"
         order = nan(result["fits"][number]["order"])
         if np.isfinite(order):
             label += f"  (order {order:.1f})"
         axes.plot(
-            [wall(members[k]) for k in good],
+            [costs[k] for k in good],
             [100 * errors[k] for k in good],
             markersize=5,
             linewidth=1,
@@ -76,8 +83,8 @@ def draw_result(study, result, out, dpi):
         )
     front = result["front"]
     axes.plot(
-        [wall(members[k]) for k in front],
-        [100 * members[k]["results"][name]["settled_error"] for k in front],
+        [costs[k] for k in front],
+        [100 * result["settings"][k]["settled_error"] for k in front],
         color="black",
         linewidth=3,
         alpha=0.25,
@@ -87,11 +94,10 @@ def draw_result(study, result, out, dpi):
         drawstyle="steps-post",
         label="what is to be had for the time" + (",\nwhen finer, too" if refined else ""),
     )
-    if "limit" in result and result["limit"]["value"]:
-        axes.axhspan(
-            1e-6, 100 * result["limit"]["spread"] / abs(result["limit"]["value"]), color="grey", alpha=0.15, linewidth=0
-        )
-    shown = [100 * e for k, e in enumerate(errors) if np.isfinite(e) and e > 0 and members[k]["choice"]]
+    spreads = [limit["spread"] / abs(limit["value"]) for limit in result["limits"] if limit and limit["value"]]
+    if spreads:
+        axes.axhspan(1e-6, 100 * max(spreads), color="grey", alpha=0.15, linewidth=0)
+    shown = [100 * e for e in errors if np.isfinite(e) and e > 0]
     if shown:
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -100,13 +106,17 @@ def draw_result(study, result, out, dpi):
             axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     else:
         axes.text(0.5, 0.5, "no error can be told", ha="center", transform=axes.transAxes)
-    axes.set_xlabel("wall time of a run [s]" if study["timed"] else "wall time of a run beside others [s]")
-    axes.set_ylabel(f"error of {name} [%]")
+    problem = axis_of(study, "problem")
+    several = problem is not None
+    all_of_them = f"{len(study['axes'][problem]['choices'])} problems" if several else ""
+    time = "wall time of " + (f"the runs of {all_of_them}" if several else "a run")
+    axes.set_xlabel(time + (" [s]" if study["timed"] else " beside others [s]"))
+    axes.set_ylabel((f"largest error of {name} in {all_of_them}" if several else f"error of {name}") + " [%]")
     axes.grid(which="both", alpha=0.2)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     axes.set_title(study["title"], fontsize=10)
-    failed = [f"{m['label']}: {m['status']}" for m in members if m["status"] != "done"]
+    failed = [f"{m['label']}: {m['status']}" for m in study["members"] if m["status"] != "done"]
     if failed:
         more = f" and {len(failed) - 6} more" if len(failed) > 6 else ""
         figure.supxlabel("; ".join(failed[:6]) + more, fontsize=6, color="tab:red")
@@ -114,33 +124,48 @@ def draw_result(study, result, out, dpi):
     plt.close(figure)
 
 
-def draw_map(study, result, out, dpi):
-    """Methods against the refined axis: the error where runs ended, a cross where they did not."""
-    name = result["name"]
-    members = study["members"]
-    refined = next(n for n, axis in enumerate(study["axes"]) if axis["refined"])
-    labels = [choice["label"] for choice in study["axes"][refined]["choices"]]
-    methods = study["methods"]
-    errors = np.full((len(methods), len(labels)), np.nan)
-    for row, method in enumerate(methods):
-        for k in method["members"]:
-            if members[k]["status"] == "done":
-                errors[row, members[k]["choice"][refined]] = 100 * nan(members[k]["results"][name]["error"])
-    order = np.argsort([choice["size"] for choice in study["axes"][refined]["choices"]])
-    errors, labels = errors[:, order], [labels[k] for k in order]
-    figure, axes = plt.subplots(figsize=(4 + 0.5 * len(labels), 1.5 + 0.17 * len(methods)), layout="constrained")
+def draw_table(study, name, errors, rows, axis, out, dpi):
+    """Errors [rows, choices of the axis] in colour, in per cent; a cross where a run did not end."""
+    columns = [choice["label"] for choice in axis["choices"]]
+    figure, axes = plt.subplots(
+        figsize=(4 + 0.2 * len(columns) + 0.05 * sum(map(len, columns)), 1.5 + 0.17 * len(rows)), layout="constrained"
+    )
     image = axes.imshow(
         errors, aspect="auto", cmap="viridis", norm=matplotlib.colors.LogNorm(vmin=0.01, vmax=10, clip=True)
     )
     for row, column in np.argwhere(~np.isfinite(errors)):
         axes.text(column, row, "\u00d7", ha="center", va="center", color="tab:red", fontsize=9)
-    axes.set_xticks(range(len(labels)), labels)
-    axes.set_yticks(range(len(methods)), [method["label"] for method in methods], fontsize=6)
-    axes.set_xlabel(study["axes"][refined]["name"])
+    axes.set_xticks(range(len(columns)), columns)
+    axes.set_yticks(range(len(rows)), rows, fontsize=6)
+    axes.set_xlabel(axis["name"])
     figure.colorbar(image, label=f"{name} [%]; red: stopped", shrink=0.6)
     axes.set_title(study["title"], fontsize=10)
     figure.savefig(out, dpi=dpi)
     plt.close(figure)
+
+
+def draw_map(study, result, out, dpi):
+    """Methods against the refined axis, by size."""
+    refined = axis_of(study, "refined")
+    axis = study["axes"][refined]
+    methods = study["methods"]
+    errors = np.full((len(methods), len(axis["choices"])), np.nan)
+    for row, method in enumerate(methods):
+        for k in method["settings"]:
+            errors[row, choice_of(study, k)[refined]] = 100 * nan(result["settings"][k]["error"])
+    order = np.argsort([choice["size"] for choice in axis["choices"]])
+    by_size = {**axis, "choices": [axis["choices"][k] for k in order]}
+    draw_table(study, result["name"], errors[:, order], [m["label"] for m in methods], by_size, out, dpi)
+
+
+def draw_problems(study, result, out, dpi):
+    """Settings against problems."""
+    name = result["name"]
+    errors = np.array(
+        [[100 * nan(study["members"][m]["results"][name]["error"]) for m in s["members"]] for s in study["settings"]]
+    )
+    rows = [s["label"] for s in study["settings"]]
+    draw_table(study, name, errors, rows, study["axes"][axis_of(study, "problem")], out, dpi)
 
 
 def draw_left_out(study, out, dpi):
@@ -181,7 +206,9 @@ def main():
     if study["methods"]:
         for result in study["results"]:
             draw_result(study, result, arguments.folder / file_name(result["name"]), arguments.dpi)
-            if any(axis["refined"] for axis in study["axes"]) and any(m["status"] != "done" for m in study["members"]):
+            if axis_of(study, "problem") is not None:
+                draw_problems(study, result, arguments.folder / file_name(result["name"] + " problems"), arguments.dpi)
+            if axis_of(study, "refined") is not None and any(m["status"] != "done" for m in study["members"]):
                 draw_map(study, result, arguments.folder / file_name(result["name"] + " map"), arguments.dpi)
     if study["left_out"]:
         draw_left_out(study, arguments.folder / "left_out.png", arguments.dpi)

@@ -40,6 +40,9 @@ void read_size(const Table& t, const char* key, const std::string& text, Choice&
 Axis read_axis(const Table& t) {
   Axis axis;
   axis.refined = t.flag("refined", false);
+  axis.problem = t.flag("problem", false);
+  if (axis.refined && axis.problem)
+    t.refuse("problem", "an axis of problems is not refined: errors are fitted for each of them", "one of the two");
   if (t.has("key") == t.has("choice"))
     t.refuse("choice", "an axis has either a key with values or choices", "key and values, or [[vary.choice]]");
   if (t.has("key")) {
@@ -75,38 +78,70 @@ Take read_take(const Table& t) {
   return static_cast<Take>(t.one_of("take", names, 0));
 }
 
-Reference read_reference(const Table& t, const std::filesystem::path& folder) {
-  Reference r;
-  if (t.has("curve")) {
-    r.kind = Reference::Kind::curve;
-    r.file = (folder / t.text("curve")).string();
-  } else if (t.has("reference")) {
-    r.value = label_of(t.value("reference"));
-    r.kind = r.value == "extrapolated" ? Reference::Kind::extrapolated : Reference::Kind::value;
-  }
-  return r;
+/// An entry for each problem, of a list that has one for each or for all.
+template <class T>
+std::vector<T> for_each_problem(const Table& t, const char* key, std::vector<T> list, const Study& s) {
+  if (list.size() == 1)
+    list.resize(s.problems(), list.front());
+  if (list.size() != s.problems())
+    t.refuse(key, fmt::format("the list has {} entries", list.size()),
+             s.problem() ? fmt::format("one for each of the {} choices of {}, or one for all", s.problems(),
+                                       s.axes[*s.problem()].name)
+                         : "one: there is no [[vary]] with problem = true");
+  return list;
 }
 
-Result read_result(const Table& t, const std::filesystem::path& folder) {
+/// The texts at `key`, one for each problem; empty ones when it is absent.
+std::vector<std::string> texts_of(const Table& t, const char* key, const Study& s) {
+  std::vector<std::string> list{""};
+  if (t.has(key)) {
+    list = t.one_or_more(key);
+    std::transform(list.begin(), list.end(), list.begin(), label_of);
+  }
+  return for_each_problem(t, key, std::move(list), s);
+}
+
+std::vector<double> times_of(const Table& t, const char* key, Range allowed, double fallback, const Study& s) {
+  const std::vector<double> list =
+      t.has(key) ? t.quantities(key, dimension::time, allowed) : std::vector<double>{fallback};
+  return for_each_problem(t, key, list, s);
+}
+
+std::vector<Target> read_targets(const Table& t, const Study& s) {
+  if (t.has("curve") && t.has("reference"))
+    t.refuse("curve", "a result has either a curve or a reference", "one of the two");
+  const std::filesystem::path folder = std::filesystem::path(s.path).parent_path();
+  const std::vector<double> from = times_of(t, "from", range::non_negative, 0, s),
+                            to = times_of(t, "to", range::positive, std::numeric_limits<double>::max(), s);
+  const std::vector<std::string> curve = texts_of(t, "curve", s), value = texts_of(t, "reference", s),
+                                 scale = texts_of(t, "scale", s);
+  std::vector<Target> targets;
+  for (size_t p = 0; p < s.problems(); ++p) {
+    Target target{from[p], to[p], {}, scale[p]};
+    if (to[p] < from[p])
+      t.refuse("to", "the window ends before it begins", "a time after from");
+    if (t.has("curve"))
+      target.reference = {Reference::Kind::curve, "", (folder / curve[p]).string()};
+    else if (t.has("reference"))
+      target.reference = {value[p] == "extrapolated" ? Reference::Kind::extrapolated : Reference::Kind::value, value[p],
+                          ""};
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
+Result read_result(const Table& t, const Study& s) {
   Result r;
   r.column = t.text("column");
   r.name = t.text("name", r.column);
   r.where = t.where();
   r.take = read_take(t);
-  r.from = t.quantity("from", dimension::time, range::non_negative, 0);
-  r.to = t.quantity("to", dimension::time, range::positive, std::numeric_limits<double>::max());
-  if (r.to < r.from)
-    t.refuse("to", "the window ends before it begins", "a time after from");
-  if (t.has("curve") && t.has("reference"))
-    t.refuse("curve", "a result has either a curve or a reference", "one of the two");
-  r.reference = read_reference(t, folder);
-  if (r.reference.kind == Reference::Kind::curve) {
+  r.targets = read_targets(t, s);
+  if (t.has("curve")) {
     if (t.has("take"))
       t.refuse("take", "a curve is compared over the whole window", "no take beside curve");
     r.take = Take::curve;
   }
-  if (t.has("scale"))
-    r.scale = label_of(t.value("scale"));
   return r;
 }
 
@@ -136,17 +171,29 @@ void check(const Table& root, const Study& s) {
   if (s.results.empty())
     root.refuse("result", "the study has no result", "at least one [[result]] with a column of history.csv");
   check_names(root, s);
-  if (std::count_if(s.axes.begin(), s.axes.end(), [](const Axis& a) { return a.refined; }) > 1)
+}
+
+void check_axes(const Table& root, const Study& s) {
+  const auto several = [&](bool Axis::*kind) {
+    return std::count_if(s.axes.begin(), s.axes.end(), [&](const Axis& a) { return a.*kind; }) > 1;
+  };
+  if (several(&Axis::refined))
     root.refuse("vary", "several axes are refined", "refined = true in one [[vary]]");
+  if (several(&Axis::problem))
+    root.refuse("vary", "several axes are problems", "problem = true in one [[vary]]",
+                "one axis whose [[vary.choice]] set what makes each problem");
 }
 
 /// What has to be known of the whole study: curves are fitted, and extrapolated, along a refined axis.
-void check_reference(const Table& t, const Study& s, const Result& r) {
-  if (!s.axes.empty() && r.reference.kind == Reference::Kind::none)
-    t.refuse("reference", "the result has no reference",
-             "a quantity, \"extrapolated\", or curve = a file of two columns", "reference = \"13.4 kJ/m^2\"");
-  if (r.reference.kind == Reference::Kind::extrapolated && (!s.refined() || s.axes[*s.refined()].choices.size() < 3))
-    t.refuse("reference", "nothing can be extrapolated", "a [[vary]] with refined = true and three choices or more");
+void check_references(const Table& t, const Study& s, const Result& r) {
+  for (const Target& target : r.targets) {
+    const Reference::Kind kind = target.reference.kind;
+    if (!s.axes.empty() && kind == Reference::Kind::none)
+      t.refuse("reference", "the result has no reference",
+               "a quantity, \"extrapolated\", or curve = a file of two columns", "reference = \"13.4 kJ/m^2\"");
+    if (kind == Reference::Kind::extrapolated && (!s.refined() || s.axes[*s.refined()].choices.size() < 3))
+      t.refuse("reference", "nothing can be extrapolated", "a [[vary]] with refined = true and three choices or more");
+  }
 }
 
 }  // namespace
@@ -163,17 +210,18 @@ Study parse_study(std::string_view text, const std::string& path) {
   s.scene = root.text("scene");
   s.set = root.texts("set");
   read_timing(root, s);
-  for (const Table& t : root.tables("vary", {"name", "key", "values", "choice", "refined"}))
+  for (const Table& t : root.tables("vary", {"name", "key", "values", "choice", "refined", "problem"}))
     s.axes.push_back(read_axis(t));
+  check_axes(root, s);
   for (const Table& t : root.tables("leave_out", {"name", "set"}))
     s.left_out.push_back({t.text("name"), t.texts("set")});
   const std::vector<Table> results =
       root.tables("result", {"name", "column", "take", "from", "to", "reference", "curve", "scale", "source"});
   for (const Table& t : results)
-    s.results.push_back(read_result(t, std::filesystem::path(path).parent_path()));
+    s.results.push_back(read_result(t, s));
   check(root, s);
   for (size_t k = 0; k < results.size(); ++k)
-    check_reference(results[k], s, s.results[k]);
+    check_references(results[k], s, s.results[k]);
   return s;
 }
 

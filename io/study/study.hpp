@@ -18,6 +18,7 @@ struct Axis {
   std::string name;
   std::vector<Choice> choices;
   bool refined = false;  ///< errors and costs are fitted along this one
+  bool problem = false;  ///< its choices are other problems, not other ways to solve one: a setting has to do for all
 };
 
 /// How a column of the history becomes one number, or is held against a curve.
@@ -31,16 +32,21 @@ struct Reference {
   std::string file;   ///< of a curve: two columns, the time first, with units in the header
 };
 
+/// What a result of one problem should be, and in which part of the run.
+struct Target {
+  double from = 0, to = std::numeric_limits<double>::infinity();  ///< s
+  Reference reference;
+  /// A quantity that errors are divided by; empty: the reference, or the largest value of its curve.
+  std::string scale;
+};
+
 /// A named result of each member.
 struct Result {
   std::string name;
   std::string column;  ///< of history.csv, without its unit
   Take take = Take::end;
-  double from = 0, to = std::numeric_limits<double>::infinity();  ///< s
-  Reference reference;
-  std::string
-      scale;  ///< a quantity that errors are divided by; empty: the reference, or the largest value of its curve
-  std::string where;  ///< in the study file
+  std::vector<Target> targets;  ///< [choices of the axis of problems]; [1] where there is none
+  std::string where;            ///< in the study file
 };
 
 /// What leaving an effect out costs and saves: the scene as it is beside the scene with these settings.
@@ -64,9 +70,15 @@ struct Study {
   int threads = 0;           ///< of each run; 0: all cores where times are taken, else 1
 
   /// The axis along which errors are fitted.
-  std::optional<size_t> refined() const {
+  std::optional<size_t> refined() const { return first(&Axis::refined); }
+  /// The axis of problems.
+  std::optional<size_t> problem() const { return first(&Axis::problem); }
+  size_t problems() const { return problem() ? axes[*problem()].choices.size() : 1; }
+
+ private:
+  std::optional<size_t> first(bool Axis::*kind) const {
     for (size_t a = 0; a < axes.size(); ++a)
-      if (axes[a].refined)
+      if (axes[a].*kind)
         return a;
     return std::nullopt;
   }

@@ -22,10 +22,10 @@ double quantity(const std::string& text, const std::string& unit, const std::str
 }
 
 /// Rows from..to of the history, a rounding beyond its last time included.
-std::pair<size_t, size_t> rows_within(const Result& r, const std::vector<double>& times) {
+std::pair<size_t, size_t> rows_within(const Target& window, const std::vector<double>& times) {
   const double slack = 1e-9 * (times.empty() ? 0 : times.back());
-  const auto first = std::lower_bound(times.begin(), times.end(), r.from - slack);
-  const auto last = std::upper_bound(first, times.end(), r.to + slack);
+  const auto first = std::lower_bound(times.begin(), times.end(), window.from - slack);
+  const auto last = std::upper_bound(first, times.end(), window.to + slack);
   return {static_cast<size_t>(first - times.begin()), static_cast<size_t>(last - times.begin())};
 }
 
@@ -55,46 +55,47 @@ double at(const std::vector<double>& t, const std::vector<double>& y, double tim
 }
 
 /// Root mean square, over the points of the curve in the window, of the distance from it.
-Taken against_curve(const Result& r, const std::vector<double>& t, const std::vector<double>& y,
+Taken against_curve(const Result& r, const Target& target, const std::vector<double>& t, const std::vector<double>& y,
                     const std::string& unit) {
-  const NumericTable curve = read_numeric_table(r.reference.file, "the reference curve", r.where);
+  const NumericTable curve = read_numeric_table(target.reference.file, "the reference curve", r.where);
   if (curve.columns.size() != 2)
-    fail({Exit::bad_input, "a reference curve has two columns", r.where, r.reference.file, "time and value", ""});
+    fail({Exit::bad_input, "a reference curve has two columns", r.where, target.reference.file, "time and value", ""});
   const double second = quantity("1 " + curve.units[0], "s", r.where);
   const double scale = curve.units[1] == "1" ? 1 : quantity("1 " + curve.units[1], unit, r.where);
   double sum = 0, largest = 0;
   long points = 0;
   for (size_t k = 0; k < curve.columns[0].size(); ++k) {
     const double time = second * curve.columns[0][k], wanted = scale * curve.columns[1][k];
-    if (time < r.from || time > r.to)
+    if (time < target.from || time > target.to)
       continue;
     sum += std::pow(at(t, y, time) - wanted, 2);
     largest = std::max(largest, std::abs(wanted));
     ++points;
   }
   if (points == 0)
-    fail({Exit::bad_input, "the reference curve has no point in the window", r.where, r.reference.file, "", ""});
+    fail({Exit::bad_input, "the reference curve has no point in the window", r.where, target.reference.file, "", ""});
   const double rms = std::sqrt(sum / static_cast<double>(points));
-  return {rms, rms / (r.scale.empty() ? largest : quantity(r.scale, unit, r.where)), unit};
+  return {rms, rms / (target.scale.empty() ? largest : quantity(target.scale, unit, r.where)), unit};
 }
 
 }  // namespace
 
-double relative_error(const Result& r, double value, double reference, const std::string& unit) {
-  if (reference == 0 && r.scale.empty())
+double relative_error(const Result& r, const Target& target, double value, double reference, const std::string& unit) {
+  if (reference == 0 && target.scale.empty())
     fail({Exit::bad_input, "errors cannot be told relative to 0", r.where, "reference = 0",
           "a reference other than 0, or a scale", "scale = \"1 J\""});
-  return std::abs(value - reference) / (r.scale.empty() ? std::abs(reference) : quantity(r.scale, unit, r.where));
+  return std::abs(value - reference) /
+         (target.scale.empty() ? std::abs(reference) : quantity(target.scale, unit, r.where));
 }
 
-Taken take_result(const Result& r, const std::string& column, const NumericTable& history) {
+Taken take_result(const Result& r, const Target& target, const std::string& column, const NumericTable& history) {
   const size_t c = history.find(column, r.where + ".column");
   const std::vector<double>&t = history.columns[0], &y = history.columns[c];
   const std::string& unit = history.units[c];
   if (r.take == Take::curve)
-    return against_curve(r, t, y, unit);
+    return against_curve(r, target, t, y, unit);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const auto [first, last] = rows_within(r, t);
+  const auto [first, last] = rows_within(target, t);
   if (first == last)
     fail({Exit::bad_input, "no row of the history lies in the window", r.where, "", "times that the run reaches", ""});
   const auto begin = y.begin() + static_cast<long>(first), end = y.begin() + static_cast<long>(last);
@@ -106,8 +107,8 @@ Taken take_result(const Result& r, const std::string& column, const NumericTable
     case Take::smallest: taken.value = *std::min_element(begin, end); break;
     default: taken.value = *(end - 1);
   }
-  if (r.reference.kind == Reference::Kind::value)
-    taken.error = relative_error(r, taken.value, quantity(r.reference.value, unit, r.where), unit);
+  if (target.reference.kind == Reference::Kind::value)
+    taken.error = relative_error(r, target, taken.value, quantity(target.reference.value, unit, r.where), unit);
   return taken;
 }
 

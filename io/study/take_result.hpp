@@ -13,11 +13,13 @@ struct Taken {
   std::string unit;
 };
 
-/// `column`: see column_of. Throws Error (bad_input) where the column does not exist, a quantity's unit does not fit
-/// it, no row lies in the window, or a curve cannot be read.
-Taken take_result(const Result& result, const std::string& column, const NumericTable& history);
+/// `target`: of the result's targets, that of the run's problem. `column`: see column_of. Throws Error (bad_input)
+/// where the column does not exist, a quantity's unit does not fit it, no row lies in the window, or a curve cannot be
+/// read.
+Taken take_result(const Result& result, const Target& target, const std::string& column, const NumericTable& history);
 
-/// |value - reference| over the result's scale, or over |reference|.
-double relative_error(const Result& result, double value, double reference, const std::string& unit);
+/// |value - reference| over the target's scale, or over |reference|.
+double relative_error(const Result& result, const Target& target, double value, double reference,
+                      const std::string& unit);
 
 }  // namespace riven::study

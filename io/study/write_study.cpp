@@ -55,10 +55,13 @@ class Writer {
     j["members"] = Json::array();
     for (size_t k = 0; k < members_.members.size(); ++k)
       j["members"].push_back(member(k));
+    j["settings"] = Json::array();
+    for (const Setting& s : assessment_.settings)
+      j["settings"].push_back({{"label", s.label}, {"members", s.members}});
     j["methods"] = Json::array();
     for (const Method& m : assessment_.methods)
       j["methods"].push_back(
-          {{"label", m.label}, {"members", m.members}, {"stands", m.stands ? Json(*m.stands) : Json(nullptr)}});
+          {{"label", m.label}, {"settings", m.settings}, {"stands", m.stands ? Json(*m.stands) : Json(nullptr)}});
     j["results"] = Json::array();
     for (size_t r = 0; r < study_.results.size(); ++r)
       j["results"].push_back(result(r));
@@ -98,7 +101,7 @@ class Writer {
       Json choices = Json::array();
       for (const Choice& c : a.choices)
         choices.push_back({{"label", c.label}, {"set", c.set}, {"size", number(c.size)}});
-      list.push_back({{"name", a.name}, {"refined", a.refined}, {"choices", choices}});
+      list.push_back({{"name", a.name}, {"refined", a.refined}, {"problem", a.problem}, {"choices", choices}});
     }
     return list;
   }
@@ -118,9 +121,7 @@ class Writer {
            {"steps", q.steps}};
     for (size_t r = 0; r < study_.results.size(); ++r) {
       const Taken& t = assessment_.results[r].taken[k];
-      j["results"][study_.results[r].name] = {{"value", number(t.value)},
-                                              {"error", number(t.error)},
-                                              {"settled_error", number(assessment_.results[r].settled[k].error)}};
+      j["results"][study_.results[r].name] = {{"value", number(t.value)}, {"error", number(t.error)}};
     }
     return j;
   }
@@ -132,15 +133,22 @@ class Writer {
            {"unit", unit(r)},
            {"reference", report.reference},
            {"front", report.front}};
-    if (report.limit)
-      j["limit"] = {{"value", report.limit->value}, {"spread", report.limit->spread}, {"methods", report.limit->count}};
+    j["limits"] = Json::array();
+    for (const std::optional<Consensus>& l : report.limits)
+      j["limits"].push_back(l ? Json{{"value", l->value}, {"spread", l->spread}, {"methods", l->count}}
+                              : Json(nullptr));
+    j["settings"] = Json::array();
+    for (size_t k = 0; k < report.points.size(); ++k)
+      j["settings"].push_back({{"cost", number(report.points[k].cost)},
+                               {"error", number(report.points[k].error)},
+                               {"settled_error", number(report.settled[k].error)}});
     j["fits"] = Json::array();
     for (const MethodFit& f : report.fits)
       j["fits"].push_back({{"order", number(f.order)}, {"cost", number(f.cost)}});
     j["cheapest"] = Json::array();
     for (const double tolerance : tolerances) {
       const std::optional<size_t> k = cheapest(report.settled, tolerance);
-      j["cheapest"].push_back({{"within", tolerance}, {"member", k ? Json(*k) : Json(nullptr)}});
+      j["cheapest"].push_back({{"within", tolerance}, {"setting", k ? Json(*k) : Json(nullptr)}});
     }
     return j;
   }

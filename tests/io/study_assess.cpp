@@ -21,7 +21,8 @@ class Assessing : public testing::Test {
       study_.axes[0].choices.push_back({fmt::format("{} mm", h), {}, 1e-3 * h});
     Result r;
     r.name = r.column = "J";
-    r.reference = {Reference::Kind::value, "100", ""};
+    r.targets = {Target{}};
+    r.targets[0].reference = {Reference::Kind::value, "100", ""};
     study_.results = {r};
   }
 
@@ -58,7 +59,7 @@ TEST_F(Assessing, FindsOrdersOfErrorAndCost) {
   const Assessment s = assess({116, 104, 101}, {84, 92, 96});
   ASSERT_EQ(s.methods.size(), 2u);
   EXPECT_EQ(s.methods[0].label, "method a");
-  EXPECT_EQ(s.methods[0].members, (std::vector<size_t>{0, 2, 4}));
+  EXPECT_EQ(s.methods[0].settings, (std::vector<size_t>{0, 2, 4}));
   const ResultReport& r = s.results[0];
   EXPECT_NEAR(r.fits[0].order, 2, 1e-12);
   EXPECT_NEAR(r.fits[1].order, 1, 1e-12);
@@ -98,14 +99,60 @@ TEST_F(Assessing, FindsHowFarMethodsRunToTheirEnd) {
 
 /// One method tends to 100, the other to and fro: its finest run counts.
 TEST_F(Assessing, ExtrapolatesWhereThereIsNoReference) {
-  study_.results[0].reference.kind = Reference::Kind::extrapolated;
+  study_.results[0].targets[0].reference.kind = Reference::Kind::extrapolated;
   const ResultReport r = assess({116, 104, 101}, {90, 104, 96}).results[0];
-  ASSERT_TRUE(r.limit);
-  EXPECT_NEAR(r.limit->value, 98, 1e-9);
-  EXPECT_NEAR(r.limit->spread, 2, 1e-9);
+  ASSERT_TRUE(r.limits.at(0));
+  EXPECT_NEAR(r.limits[0]->value, 98, 1e-9);
+  EXPECT_NEAR(r.limits[0]->spread, 2, 1e-9);
   EXPECT_NEAR(r.points[4].error, 3 / 98., 1e-9);
   EXPECT_NE(r.reference.find("1 could be extrapolated"), std::string::npos) << r.reference;
-  EXPECT_FALSE(assess({1, 2, NAN}, {1, 2, NAN}).results[0].limit);
+  EXPECT_FALSE(assess({1, 2, NAN}, {1, 2, NAN}).results[0].limits[0]);
+}
+
+/// The methods are problems now, which one method solves on three cells.
+class AssessingProblems : public Assessing {
+ protected:
+  AssessingProblems() {
+    study_.axes[1] = {"load", {{"small", {"grip.velocity=1"}}, {"large", {"grip.velocity=2"}}}, false, true};
+    study_.results[0].targets.resize(2, study_.results[0].targets[0]);
+    study_.results[0].targets[1].reference.value = "200";
+  }
+};
+
+TEST_F(AssessingProblems, CountTheLargestErrorAndTheTimeOfAll) {
+  const Assessment s = assess({116, 104, 101}, {250, 190, 198});
+  ASSERT_EQ(s.settings.size(), 3u);
+  EXPECT_EQ(s.settings[1].label, "cell 2 mm");
+  EXPECT_EQ(s.settings[1].members, (std::vector<size_t>{2, 3}));
+  ASSERT_EQ(s.methods.size(), 1u);
+  EXPECT_EQ(s.methods[0].settings, (std::vector<size_t>{0, 1, 2}));
+  const ResultReport& r = s.results[0];
+  EXPECT_DOUBLE_EQ(r.taken[4].error, 0.01);
+  EXPECT_DOUBLE_EQ(r.points[0].error, 0.25);
+  EXPECT_DOUBLE_EQ(r.points[1].error, 0.05);
+  EXPECT_DOUBLE_EQ(r.points[2].error, 0.01);
+  EXPECT_DOUBLE_EQ(r.points[1].cost, 16);
+  EXPECT_EQ(cheapest(r.settled, 0.06), std::optional<size_t>(1));
+  EXPECT_EQ(r.reference, "load small: 100; load large: 200");
+  EXPECT_EQ(keys_of(study_, members_, s.settings[1]), std::vector<std::string>{}) << "the load is no part of it";
+}
+
+TEST_F(AssessingProblems, ASettingThatFailsInOneOfThemIsNotGood) {
+  const Assessment s = assess({116, 104, 101}, {220, NAN, 198});
+  EXPECT_TRUE(s.methods[0].failed);
+  EXPECT_EQ(s.methods[0].stands, std::optional<size_t>(2));
+  EXPECT_TRUE(std::isnan(s.results[0].points[1].error));
+  EXPECT_EQ(cheapest(s.results[0].settled, 0.2), std::optional<size_t>(2));
+}
+
+TEST_F(AssessingProblems, AreExtrapolatedEachByItself) {
+  for (Target& t : study_.results[0].targets)
+    t.reference.kind = Reference::Kind::extrapolated;
+  const ResultReport r = assess({116, 104, 101}, {184, 192, 196}).results[0];
+  ASSERT_TRUE(r.limits.at(0) && r.limits.at(1));
+  EXPECT_NEAR(r.limits[0]->value, 100, 1e-9);
+  EXPECT_NEAR(r.limits[1]->value, 200, 1e-9);
+  EXPECT_NEAR(r.points[2].error, 0.02, 1e-9);
 }
 
 TEST_F(Assessing, TellsWhatLeavingOutDoes) {

@@ -64,8 +64,60 @@ TEST(ReadStudy, EveryPart) {
   EXPECT_EQ(s.axes[2].choices[1].label, "8");
   ASSERT_EQ(s.results.size(), 1u);
   EXPECT_EQ(s.results[0].take, Take::mean);
-  EXPECT_DOUBLE_EQ(s.results[0].from, 2e-4);
-  EXPECT_EQ(s.results[0].reference.kind, Reference::Kind::value);
+  ASSERT_EQ(s.results[0].targets.size(), 1u);
+  EXPECT_DOUBLE_EQ(s.results[0].targets[0].from, 2e-4);
+  EXPECT_EQ(s.results[0].targets[0].reference.kind, Reference::Kind::value);
+  EXPECT_FALSE(s.problem());
+}
+
+/// The transfers of the study as if they were problems.
+std::string problems(const std::string& from, const std::string& to) {
+  std::string text = changed(from, to);
+  return text.replace(text.find("name = \"transfer\""), 0, "problem = true\n");
+}
+
+TEST(ReadStudy, ProblemsHaveTargetsOfTheirOwn) {
+  const Study s =
+      parse_study(problems("from = \"0.2 ms\"\nreference = \"13.4 kJ/m^2\"",
+                           "from = [\"0.2 ms\", \"0.3 ms\"]\nreference = [\"1 J/m^2\", 2]\nscale = \"3 J/m^2\""),
+                  "J.toml");
+  EXPECT_EQ(s.problem(), std::optional<size_t>(1));
+  ASSERT_EQ(s.results[0].targets.size(), 2u);
+  const Target &one = s.results[0].targets[0], &two = s.results[0].targets[1];
+  EXPECT_DOUBLE_EQ(one.from, 2e-4);
+  EXPECT_DOUBLE_EQ(two.from, 3e-4);
+  EXPECT_EQ(one.to, two.to);
+  EXPECT_EQ(one.reference.value, "1 J/m^2");
+  EXPECT_EQ(two.reference.value, "2");
+  EXPECT_EQ(one.scale, "3 J/m^2");
+  EXPECT_EQ(two.scale, "3 J/m^2");
+  const Study curves = parse_study(
+      problems("take = \"mean\"\nfrom = \"0.2 ms\"\nreference = \"13.4 kJ/m^2\"", "curve = [\"a.csv\", \"b.csv\"]"),
+      "in/J.toml");
+  EXPECT_EQ(curves.results[0].targets[1].reference.file, "in/b.csv");
+}
+
+TEST(ReadStudy, ProblemsThatDoNotMatch) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      parse_study(text, "J.toml");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string three = complaint(problems("\"13.4 kJ/m^2\"", "[1, 2, 3]"));
+  EXPECT_NE(three.find("result.0.reference"), std::string::npos) << three;
+  EXPECT_NE(three.find("the list has 3 entries"), std::string::npos) << three;
+  EXPECT_NE(three.find("2 choices of transfer"), std::string::npos) << three;
+  const std::string no_axis = complaint(changed("\"13.4 kJ/m^2\"", "[1, 2]"));
+  EXPECT_NE(no_axis.find("problem = true"), std::string::npos) << no_axis;
+  const std::string second = complaint(problems("values = [4, 8]", "values = [4, 8]\nproblem = true"));
+  EXPECT_NE(second.find("several axes are problems"), std::string::npos) << second;
+  const std::string refined = complaint(changed("refined = true", "refined = true\nproblem = true"));
+  EXPECT_NE(refined.find("vary.0.problem"), std::string::npos) << refined;
+  const std::string late = complaint(problems("from = \"0.2 ms\"", "from = [\"0.2 ms\", \"9 ms\"]\nto = \"1 ms\""));
+  EXPECT_NE(late.find("result.0.to"), std::string::npos) << late;
 }
 
 struct WrongStudy {
@@ -173,55 +225,55 @@ NumericTable history() {
       {"time", "H last J", "K"}, {"s", "J/m^2", "Pa m^0.5"}, {{0, 1, 2, 4}, {10, 20, 40, 40}, {1, 2, 3, 4}}, "h.csv"};
 }
 
-Result result(Take take, double from, double to) {
-  Result r;
-  r.column = "H last J";
-  r.take = take;
-  r.from = from;
-  r.to = to;
-  r.reference = {Reference::Kind::value, "0.03 kJ/m^2", ""};
-  r.where = "J.toml:9: result.0";
-  return r;
-}
+/// A result with one target, as it is taken from that history.
+struct Wanted {
+  Result result;
+  Target target;
+
+  Wanted(Take take, double from, double to) : target{from, to, {Reference::Kind::value, "0.03 kJ/m^2", ""}, ""} {
+    result.take = take;
+    result.where = "J.toml:9: result.0";
+  }
+  Taken taken(const std::string& column = "H last J") const { return take_result(result, target, column, history()); }
+};
 
 TEST(StudyResults, AreTakenFromAWindow) {
   const double all = 1e9;
-  EXPECT_EQ(take_result(result(Take::end, 0, all), "H last J", history()).value, 40);
-  EXPECT_EQ(take_result(result(Take::end, 0, 1), "H last J", history()).value, 20);
-  EXPECT_EQ(take_result(result(Take::largest, 0, 1), "H last J", history()).value, 20);
-  EXPECT_EQ(take_result(result(Take::smallest, 1, all), "H last J", history()).value, 20);
-  EXPECT_DOUBLE_EQ(take_result(result(Take::rms, 1, all), "H last J", history()).value,
-                   std::sqrt((1000 + 2 * 1600) / 3.));
-  EXPECT_EQ(take_result(result(Take::mean, 1, all), "H last J", history()).value, (30 + 2 * 40) / 3.);
-  const Taken t = take_result(result(Take::mean, 0, 1), "H last J", history());
+  EXPECT_EQ(Wanted(Take::end, 0, all).taken().value, 40);
+  EXPECT_EQ(Wanted(Take::end, 0, 1).taken().value, 20);
+  EXPECT_EQ(Wanted(Take::largest, 0, 1).taken().value, 20);
+  EXPECT_EQ(Wanted(Take::smallest, 1, all).taken().value, 20);
+  EXPECT_DOUBLE_EQ(Wanted(Take::rms, 1, all).taken().value, std::sqrt((1000 + 2 * 1600) / 3.));
+  EXPECT_EQ(Wanted(Take::mean, 1, all).taken().value, (30 + 2 * 40) / 3.);
+  const Taken t = Wanted(Take::mean, 0, 1).taken();
   EXPECT_EQ(t.value, 15);
   EXPECT_DOUBLE_EQ(t.error, 0.5);
-  EXPECT_THROW(take_result(result(Take::end, 5, all), "H last J", history()), Error);
-  EXPECT_THROW(take_result(result(Take::end, 0, all), "H last I", history()), Error);
-  Result other = result(Take::end, 0, all);
-  other.reference.value = "3 MPa";
-  EXPECT_THROW(take_result(other, "H last J", history()), Error);
-  other.reference.value = "2 Pa m^0.5";
-  EXPECT_DOUBLE_EQ(take_result(other, "K", history()).error, 1);
-  other.reference.value = "0";
-  EXPECT_THROW(take_result(other, "K", history()), Error);
-  other.reference.value = "2 Pa m^0.5";
-  other.scale = "8 Pa m^0.5";
-  EXPECT_DOUBLE_EQ(take_result(other, "K", history()).error, 0.25);
+  EXPECT_THROW(Wanted(Take::end, 5, all).taken(), Error);
+  EXPECT_THROW(Wanted(Take::end, 0, all).taken("H last I"), Error);
+  Wanted other(Take::end, 0, all);
+  other.target.reference.value = "3 MPa";
+  EXPECT_THROW(other.taken(), Error);
+  other.target.reference.value = "2 Pa m^0.5";
+  EXPECT_DOUBLE_EQ(other.taken("K").error, 1);
+  other.target.reference.value = "0";
+  EXPECT_THROW(other.taken("K"), Error);
+  other.target.reference.value = "2 Pa m^0.5";
+  other.target.scale = "8 Pa m^0.5";
+  EXPECT_DOUBLE_EQ(other.taken("K").error, 0.25);
 }
 
 TEST(StudyResults, AreHeldAgainstCurvesInTheirUnits) {
   const std::string file = testing::TempDir() + "/riven_curve.csv";
   std::ofstream(file) << "# of the closed form\n\"t, of the load [ms]\",J (kJ/m^2)\n500,0.015\n3000,0.050\n9000,1\n";
-  Result r = result(Take::curve, 0, 8);
-  r.reference = {Reference::Kind::curve, "", file};
-  const Taken t = take_result(r, "H last J", history());  // 15 and 40 beside 15 and 50
+  Wanted curve(Take::curve, 0, 8);
+  curve.target.reference = {Reference::Kind::curve, "", file};
+  const Taken t = curve.taken();  // 15 and 40 beside 15 and 50
   EXPECT_NEAR(t.value, 10 / std::sqrt(2.), 1e-12);
   EXPECT_NEAR(t.error, t.value / 50, 1e-14);
-  r.from = 3.5;
-  EXPECT_THROW(take_result(r, "H last J", history()), Error);
-  r.reference.file += ".none";
-  EXPECT_THROW(take_result(r, "H last J", history()), Error);
+  curve.target.from = 3.5;
+  EXPECT_THROW(curve.taken(), Error);
+  curve.target.reference.file += ".none";
+  EXPECT_THROW(curve.taken(), Error);
 }
 
 TEST(StudySettings, StandInASceneAsToml) {

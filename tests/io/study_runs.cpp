@@ -130,10 +130,12 @@ TEST_F(StudyRuns, ShowWhatFailsAndDoNothingTwice) {
     EXPECT_EQ(m["message"].get<std::string>().empty(), stable);
   }
   const Json& result = s["results"][0];
-  EXPECT_GT(result["limit"]["value"].get<double>(), 0);
+  EXPECT_GT(result["limits"][0]["value"].get<double>(), 0);
   for (const Json& c : result["cheapest"])
-    if (!c["member"].is_null()) {
-      EXPECT_EQ(s["members"][c["member"].get<size_t>()]["status"], "done");
+    if (!c["setting"].is_null()) {
+      const Json& of = s["settings"][c["setting"].get<size_t>()]["members"];
+      ASSERT_EQ(of.size(), 1u);
+      EXPECT_EQ(s["members"][of[0].get<size_t>()]["status"], "done");
     }
   EXPECT_GT(s["left_out"][0]["changes"]["work"].get<double>(), 0.01) << "the bar moves further without damping";
   EXPECT_TRUE(fs::exists(out_ + "/study.csv"));
@@ -175,10 +177,57 @@ TEST_F(StudyRuns, WhatIsSaidToBeWithinAToleranceIs) {
       std::getline(row, cell, ',');
     work = std::max(work, std::stod(cell));
   }
-  EXPECT_NEAR(work / study()["results"][0]["limit"]["value"].get<double>(), 1, 0.2);
+  EXPECT_NEAR(work / study()["results"][0]["limits"][0]["value"].get<double>(), 1, 0.2);
   const Outcome none = riven(call("--no-timing --within 1e-9"), folder_);
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.errors.find("no member"), std::string::npos) << none.errors;
+  EXPECT_NE(none.errors.find("no setting"), std::string::npos) << none.errors;
+}
+
+/// A larger damping is another problem here, with a result of its own: what is drawn and said is of both.
+TEST_F(StudyRuns, ShowEachProblemAndHowGoodASettingIsInAll) {
+  std::ofstream((folder_ / "cells.toml").string()) << R"toml(scene = "bar.toml"
+[timing]
+repeats = 1
+threads = 1
+[[vary]]
+name = "damping"
+key = "damping.grid"
+values = ["1000 1/s", "20000 1/s"]
+problem = true
+[[vary]]
+name = "cell"
+key = "grid.cell"
+refined = true
+values = ["4 mm", "2 mm", "1 mm"]
+[[result]]
+name = "work"
+column = "external_work"
+take = "largest"
+reference = "extrapolated"
+)toml";
+  ASSERT_EQ(riven(call(), folder_).code, 0);
+  const Json s = study();
+  ASSERT_EQ(s["settings"].size(), 3u);
+  const Json& result = s["results"][0];
+  ASSERT_EQ(result["limits"].size(), 2u);
+  EXPECT_GT(result["limits"][0]["value"].get<double>(), 1.1 * result["limits"][1]["value"].get<double>());
+  for (size_t k = 0; k < 3; ++k) {
+    double largest = 0, seconds = 0;
+    for (const Json& number : s["settings"][k]["members"]) {
+      const Json& m = s["members"][number.get<size_t>()];
+      largest = std::max(largest, m["results"]["work"]["error"].get<double>());
+      seconds += m["wall_seconds"][0].get<double>();
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_EQ(result["settings"][k]["error"].get<double>(), largest);
+    EXPECT_NEAR(result["settings"][k]["cost"].get<double>(), seconds, 1e-9);
+  }
+  EXPECT_TRUE(fs::exists(out_ + "/work.png"));
+  EXPECT_TRUE(fs::exists(out_ + "/work_problems.png"));
+  const Outcome setting = riven(call("--within 50%"), folder_);
+  EXPECT_EQ(setting.code, 0) << setting.errors;
+  EXPECT_EQ(setting.output.find("damping"), std::string::npos) << setting.output;
+  EXPECT_NE(setting.output.find("cell = "), std::string::npos) << setting.output;
 }
 
 /// Killed while it runs, a study goes on where it was, and no run of it is left behind.
