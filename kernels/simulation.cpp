@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/exec/timers.hpp"
+#include "core/state/draw_mouths.hpp"
 #include "core/state/make_state.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/make_loads.hpp"
@@ -48,7 +49,7 @@ void tally_there(const exec::Space& space, const Plan& plan, State<Real, 2>& s) 
 
 template <class Real>
 SimulationOf<Real>::SimulationOf(const Scene& s, const exec::Space& where)
-    : scene(s), space(where), plan(make_plan(s)), tasks(tasks_for<Real>(s, plan, where)) {
+    : scene(draw_mouths(s)), space(where), plan(make_plan(s)), tasks(tasks_for<Real>(s, plan, where)) {
   if (scene.precision != precision_of<Real>)
     fail({Exit::internal, "the simulation has not the precision of its scene", s.name});
   begin();

@@ -58,19 +58,27 @@ double junction_reach(const Scene& scene, int body) {
   return 0.499 * scene.cell / scene.bodies[static_cast<size_t>(body)].particles_per_cell;
 }
 
+CrackEnd end_of(const Scene& scene, size_t crack, bool last) {
+  const std::vector<Vec2>& points = scene.cracks[crack].points;
+  const Vec2 x = last ? points.back() : points.front();
+  const int body = body_at(scene, x);
+  if (body < 0)
+    return CrackEnd::outside;
+  const double radius = junction_reach(scene, body);
+  if (on_crack(scene, crack, last, radius))
+    return CrackEnd::junction;
+  return well_inside(scene, x, radius) ? CrackEnd::tip : CrackEnd::mouth;
+}
+
 std::vector<Tip> make_tips(const Scene& scene) {
   std::vector<Tip> tips;
   for (size_t c = 0; c < scene.cracks.size(); ++c)
     for (const bool last : {false, true}) {
+      if (end_of(scene, c, last) != CrackEnd::tip)
+        continue;
       const std::vector<Vec2>& points = scene.cracks[c].points;
-      const Vec2 x = last ? points.back() : points.front();
-      const int b = body_at(scene, x);
-      if (b < 0)
-        continue;
+      const int b = body_at(scene, last ? points.back() : points.front());
       const Body& body = scene.bodies[static_cast<size_t>(b)];
-      const double radius = junction_reach(scene, b);
-      if (!well_inside(scene, x, radius) || on_crack(scene, c, last, radius))
-        continue;
       Tip tip;
       tip.crack = static_cast<int>(c);
       tip.last = last;

@@ -13,9 +13,12 @@ int body_at(const Scene& scene, Vec2 x);
 /// Nearer than this (m) to another crack, the end of a crack in this body belongs to a junction.
 double junction_reach(const Scene& scene, int body);
 
-/// Both ends of every crack that lie inside a body: in no hole, and no part of the circle around it of half a particle
-/// outside of all bodies (there it is a mouth). An end that is as near to another crack, or to another part of its own,
-/// belongs to a junction and is no tip.
+/// What an end of a crack is: outside of all bodies; a mouth, in a body but with part of the circle around it of half a
+/// particle outside of all; in a junction, as near to another crack or to another part of its own; or else a tip.
+enum class CrackEnd { outside, mouth, junction, tip };
+CrackEnd end_of(const Scene& scene, size_t crack, bool last);
+
+/// Both ends of every crack that are tips.
 std::vector<Tip> make_tips(const Scene& scene);
 
 /// The rule by which a crack grows: its own, else the scene's; null if it does not grow.
