@@ -15,7 +15,8 @@ struct FractureReport {
   long unsound = 0;   ///< it leaves the solid however small
   long evaluations = 0;
   long crossed = 0;  ///< evaluations with another crack in the domain
-  long bent = 0;     ///< a bend with faces pressed together behind it was too near for a contour that leaves it out
+  long bent = 0;     ///< a bend that is sharp, or has faces pressed together behind it, was too near for a contour that
+                     ///< leaves it out
   long mixed = 0;    ///< a tip grew to where its contour takes in another material
   Vec2 place[5];
 };

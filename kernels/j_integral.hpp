@@ -37,7 +37,7 @@ struct TipSums {
                                                            ///< other crack cuts, if that is known to be short
   bool crossed = false;                                    ///< another crack lies in the domain
   bool bent = false;                                       ///< the crack itself is not in line with its tip there
-  std::vector<Vec2> shut_bends;  ///< its points where it is not, if faces near there are pressed together
+  std::vector<Vec2> bends;  ///< of its points where it is not, those that the contour should leave out
 };
 
 /// A tip to sum around.

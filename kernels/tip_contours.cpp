@@ -126,12 +126,12 @@ double TipContours<Real>::acting_within(const Tip& tip, const JDomain& domain) c
   return sum;
 }
 
-/// Bends are left out once: where they are pressed in a smaller contour they were so in a larger one.
+/// Bends are left out once: those that a smaller contour should leave out a larger one should, too.
 template <class Real>
 void TipContours<Real>::review(DueTip& d, const TipTask& task) const {
   d.settled = d.to_draw_in = d.to_leave_bends = false;
-  if (rules_.method == JMethod::fijc_adaptive && d.bends.empty() && !task.sums.shut_bends.empty()) {
-    d.bends = task.sums.shut_bends;
+  if (rules_.method == JMethod::fijc_adaptive && d.bends.empty() && !task.sums.bends.empty()) {
+    d.bends = task.sums.bends;
     d.to_leave_bends = true;
   } else {
     draw_in(d, task);

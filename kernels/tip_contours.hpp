@@ -1,8 +1,8 @@
 // The contours on which J of tips is found: where they go, and how they are drawn in when their sums are known (Nairn
 // and Aimene, section 2.2.2, step 6 with notes 1 and 2).
 //
-// A contour leaves out the tips of other cracks, and bends of its own crack where faces are pressed together, and its
-// edges lie in the solid. Of the latter two its sums tell; it is then placed anew.
+// A contour leaves out the tips of other cracks, and bends of its own crack that are sharp or where faces are pressed
+// together, and its edges lie in the solid. Of the latter two its sums tell; it is then placed anew.
 #pragma once
 #include <optional>
 #include <vector>
