@@ -87,9 +87,12 @@ void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
-/// A material other than the tip's own in its contour, or -1.
+/// A material other than the tip's own in its largest contour, or -1.
 int other_material_near(const Scene& s, const Tip& tip, Vec2 at) {
-  const int half = s.fracture.contour + 2;  // cells, half a cell from point to point
+  int contour = s.fracture.contour;
+  for (const FractureReading& r : s.readings)
+    contour = std::max(contour, r.rules.contour);
+  const int half = contour + 2;  // cells, half a cell from point to point
   for (int j = -half; j <= half; ++j)
     for (int i = -half; i <= half; ++i)
       if (const int body = body_at(s, at + (0.5 * s.cell) * Vec2{double(i), double(j)}); body >= 0)
@@ -105,12 +108,11 @@ void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
     const CrackLine& crack = s.cracks[static_cast<size_t>(tip.crack)];
     const int other = other_material_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
     if (other >= 0)
-      list.push_back(
-          {place(s, "crack " + crack.name),
-           fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",
-                       tip.last ? "last" : "first", s.materials[static_cast<size_t>(other)].name,
-                       s.materials[static_cast<size_t>(tip.material)].name),
-           "try a smaller fracture.contour or smaller cells; J holds where the two meet along the crack's line"});
+      list.push_back({place(s, "crack " + crack.name),
+                      fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",
+                                  tip.last ? "last" : "first", s.materials[static_cast<size_t>(other)].name,
+                                  s.materials[static_cast<size_t>(tip.material)].name),
+                      "try a smaller contour or smaller cells; J holds where the two meet along the crack's line"});
   }
 }
 
