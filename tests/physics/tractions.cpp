@@ -172,7 +172,9 @@ TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
     for (const CrackEvent& e : m.state.events)
       exits += e.kind == CrackEvent::Kind::exit;
     EXPECT_EQ(exits, 2);
-    EXPECT_LT(worst, 0.002) << contour;
+    // 0.06 to 0.09 % with vectors of 256 bits, 0.04 to 0.28 % with 512, as the crack takes other ways; with forces on
+    // nodes of next to no mass 1 to 1.9 %
+    EXPECT_LT(worst, 0.004) << contour;
   }
 }
 
