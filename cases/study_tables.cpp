@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -117,6 +118,18 @@ void print_failures(const Members& members, const std::vector<Record>& records) 
                  records[r].message.substr(0, records[r].message.find('\n')));
 }
 
+/// How many of the runs that are done warned, and the first of their warnings.
+void print_warnings(const Members& members, const std::vector<Record>& records) {
+  const auto warned = [](const Record& r) { return r.done() && r.message.find("warning: ") != std::string::npos; };
+  const auto first = std::find_if(records.begin(), records.end(), warned);
+  if (first == records.end())
+    return;
+  const std::string warning = first->message.substr(first->message.find("warning: "));
+  fmt::print("\n{} of {} runs warned, as that with {}:\n  {}\n  (all in runs/*/messages.txt)\n",
+             std::count_if(records.begin(), records.end(), warned), records.size(),
+             members.runs[static_cast<size_t>(first - records.begin())].label, warning.substr(0, warning.find('\n')));
+}
+
 void print_left_out(const Study& s, const Members& members, const std::vector<Record>& records, const Assessment& a) {
   const std::vector<LeftOutReport> all = report_left_out(s, members, records, a);
   if (all.empty())
@@ -156,6 +169,7 @@ void print_study(const Study& s, const Members& members, const std::vector<Recor
   print_left_out(s, members, records, a);
   print_stands(s, members, a);
   print_failures(members, records);
+  print_warnings(members, records);
 }
 
 }  // namespace riven

@@ -128,9 +128,9 @@ void check_tips(const Scene& s) {
   const std::string wanted =
       fmt::format("an end inside a body, {:.2g} mm or more, half a particle, from its border and from other cracks",
                   1e3 * half_particle(s));
+  const std::string count = fmt::format("{} crack{}", s.cracks.size(), s.cracks.size() == 1 ? "" : "s");
   if (s.fracture.asked && tips.empty())
-    refuse(s, "fracture", "J and K are asked for but no crack has a tip in a body",
-           fmt::format("{} cracks", s.cracks.size()), wanted, "no [fracture]");
+    refuse(s, "fracture", "J and K are asked for but no crack has a tip in a body", count, wanted, "no [fracture]");
   for (int c = 0; c < static_cast<int>(s.cracks.size()); ++c) {
     const CrackLine& line = s.cracks[static_cast<size_t>(c)];
     if (line.growth && std::none_of(tips.begin(), tips.end(), [&](const Tip& t) { return t.crack == c; }))
@@ -138,8 +138,7 @@ void check_tips(const Scene& s) {
              text(line.points.front()) + " to " + text(line.points.back()), wanted, "no growth for this crack");
   }
   if (s.growth && std::none_of(tips.begin(), tips.end(), [](const Tip& t) { return t.grows; }))
-    refuse(s, "growth", "cracks are to grow but none that may has a tip in a body",
-           fmt::format("{} cracks", s.cracks.size()), wanted, "no [growth]");
+    refuse(s, "growth", "cracks are to grow but none that may has a tip in a body", count, wanted, "no [growth]");
 }
 
 void check_traction(const Scene& s, const CrackLine& c, double spacing) {

@@ -135,10 +135,15 @@ def draw_table(study, name, errors, rows, axis, out, dpi):
     )
     for row, column in np.argwhere(~np.isfinite(errors)):
         axes.text(column, row, "\u00d7", ha="center", va="center", color="tab:red", fontsize=9)
+    if len(columns) <= 10:
+        for row, column in np.argwhere(np.isfinite(errors)):
+            dark = errors[row, column] < 0.5
+            text = f"{errors[row, column]:.2g}"
+            axes.text(column, row, text, ha="center", va="center", color="white" if dark else "black", fontsize=6)
     axes.set_xticks(range(len(columns)), columns)
     axes.set_yticks(range(len(rows)), rows, fontsize=6)
     axes.set_xlabel(axis["name"])
-    figure.colorbar(image, label=f"{name} [%]; red: stopped", shrink=0.6)
+    figure.colorbar(image, label=f"error of {name} [%]; red: stopped", shrink=0.6)
     axes.set_title(study["title"], fontsize=10)
     figure.savefig(out, dpi=dpi)
     plt.close(figure)

@@ -54,17 +54,18 @@ class Assessor {
 
   ResultReport report(const Result& r) const {
     ResultReport out;
-    for (const Member& m : members_.members)
+    for (const Member& m : members_.members) {
       out.taken.push_back(records_[m.run].done()
                               ? take_result(r, target_of(study_, r, m), column_of(m, r.column), histories_[m.run])
                               : Taken{none, none, ""});
-    out.limits.resize(study_.problems());
-    for (size_t p = 0; p < study_.problems(); ++p) {
-      if (study_.problem())
-        out.reference +=
-            fmt::format("{}{} {}: ", p ? "; " : "", study_.axes[*study_.problem()].name, label_of_problem(p));
-      out.reference += settle_reference(r, p, out);
+      if (study_.problem() && m.choice.empty())  // the scene as it is need be none of the problems
+        out.taken.back().error = none;
     }
+    out.limits.resize(study_.problems());
+    std::vector<std::string> references;
+    for (size_t p = 0; p < study_.problems(); ++p)
+      references.push_back(settle_reference(r, p, out));
+    out.reference = in_words(references);
     for (const Setting& s : out_.settings)
       out.points.push_back(point_of(s, out));
     for (const Method& m : out_.methods)
@@ -74,7 +75,16 @@ class Assessor {
     return out;
   }
 
-  const std::string& label_of_problem(size_t p) const { return study_.axes[*study_.problem()].choices[p].label; }
+  /// One for all problems where they have the same.
+  std::string in_words(const std::vector<std::string>& references) const {
+    if (std::count(references.begin(), references.end(), references[0]) == static_cast<long>(references.size()))
+      return references[0];
+    const Axis& axis = study_.axes[*study_.problem()];
+    std::string list;
+    for (size_t p = 0; p < references.size(); ++p)
+      list += fmt::format("{}{} {}: {}", p ? "; " : "", axis.name, axis.choices[p].label, references[p]);
+    return list;
+  }
 
   /// What the result of a problem is held against, in words; errors follow where it is found by extrapolation.
   std::string settle_reference(const Result& r, size_t problem, ResultReport& out) const {
@@ -108,10 +118,15 @@ class Assessor {
       return "nothing: no method got to its finest run";
     for (const Setting& s : out_.settings)
       if (Taken& t = out.taken[s.members[problem]]; std::isfinite(t.value))
-        t.error = relative_error(r, r.targets[problem], t.value, limit->value, t.unit);
-    return fmt::format(
-        "{:.6g}, the middle of {} methods of which {} could be extrapolated; half of them are within {:.2g} of it",
-        limit->value, limit->count, extrapolated, limit->spread);
+        t.error = relative_error(r.targets[problem], t.value, limit->value, t.unit);
+    const std::string what =
+        extrapolated > 0
+            ? fmt::format("the middle of {} methods of which {} could be extrapolated", limit->count, extrapolated)
+            : fmt::format(
+                  "the middle of the finest runs of {} methods, of which none could be "
+                  "extrapolated: the finest has no error by this",
+                  limit->count);
+    return fmt::format("{:.6g}, {}; half of them are within {:.2g} of it", limit->value, what, limit->spread);
   }
 
   Point point_of(const Setting& s, const ResultReport& out) const {

@@ -130,6 +130,8 @@ class Expander {
       make_plan(s);
       r.hash = hash_of(s, study_, program_);
       r.work = work_of(s);
+      if (const auto same = scenes_.try_emplace(r.hash, known->second); !same.second)
+        return known->second = same.first->second;
     } catch (const Error& e) {
       if (e.code() != Exit::bad_input)
         throw;
@@ -167,7 +169,8 @@ class Expander {
   const std::string scene_;
   const std::string program_ = hash_of_program();
   std::optional<size_t> reading_axis_;
-  std::map<std::vector<std::string>, size_t> numbers_;
+  std::map<std::vector<std::string>, size_t> numbers_;  ///< of runs, by their settings
+  std::map<std::string, size_t> scenes_;                ///< by their hash: settings may say what the scene does
   std::map<size_t, Trouble> refusals_;
   Members out_;
 };

@@ -96,7 +96,12 @@ std::vector<std::string> texts_of(const Table& t, const char* key, const Study& 
   std::vector<std::string> list{""};
   if (t.has(key)) {
     list = t.one_or_more(key);
-    std::transform(list.begin(), list.end(), list.begin(), label_of);
+    for (std::string& value : list) {
+      const char first = value.front();
+      if (first == '[' || first == '{' || value == "true" || value == "false")
+        t.refuse(key, fmt::format("expected a text or a number, found {}", shown(value)), "one, or a list of them");
+      value = label_of(value);
+    }
   }
   return for_each_problem(t, key, std::move(list), s);
 }
@@ -117,12 +122,18 @@ std::vector<Target> read_targets(const Table& t, const Study& s) {
                                  scale = texts_of(t, "scale", s);
   std::vector<Target> targets;
   for (size_t p = 0; p < s.problems(); ++p) {
-    Target target{from[p], to[p], {}, scale[p]};
+    Target target{from[p], to[p], {}, scale[p], t.where()};
+    if (s.problem())
+      target.where += fmt::format(", {} {}", s.axes[*s.problem()].name, s.axes[*s.problem()].choices[p].label);
     if (to[p] < from[p])
       t.refuse("to", "the window ends before it begins", "a time after from");
-    if (t.has("curve"))
+    if (t.has("curve")) {
       target.reference = {Reference::Kind::curve, "", (folder / curve[p]).string()};
-    else if (t.has("reference"))
+      if (!std::filesystem::is_regular_file(target.reference.file))
+        t.refuse("curve", fmt::format("there is no file {}", shown(target.reference.file)),
+                 "files of two columns, relative to the study's folder");
+    }
+    if (t.has("reference"))
       target.reference = {value[p] == "extrapolated" ? Reference::Kind::extrapolated : Reference::Kind::value, value[p],
                           ""};
     targets.push_back(std::move(target));
@@ -134,7 +145,6 @@ Result read_result(const Table& t, const Study& s) {
   Result r;
   r.column = t.text("column");
   r.name = t.text("name", r.column);
-  r.where = t.where();
   r.take = read_take(t);
   r.targets = read_targets(t, s);
   if (t.has("curve")) {

@@ -38,6 +38,7 @@ struct Target {
   Reference reference;
   /// A quantity that errors are divided by; empty: the reference, or the largest value of its curve.
   std::string scale;
+  std::string where;  ///< in the study file, with the problem
 };
 
 /// A named result of each member.
@@ -46,7 +47,6 @@ struct Result {
   std::string column;  ///< of history.csv, without its unit
   Take take = Take::end;
   std::vector<Target> targets;  ///< [choices of the axis of problems]; [1] where there is none
-  std::string where;            ///< in the study file
 };
 
 /// What leaving an effect out costs and saves: the scene as it is beside the scene with these settings.

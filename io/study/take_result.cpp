@@ -1,5 +1,7 @@
 #include "io/study/take_result.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,59 +47,70 @@ std::vector<double> squares(std::vector<double> y) {
   return y;
 }
 
-/// The value at `time` of what is straight between the rows; NaN outside of them.
+/// The value at `time` of what is straight between the rows, and beyond them that of the nearest.
 double at(const std::vector<double>& t, const std::vector<double>& y, double time) {
   const auto after = std::lower_bound(t.begin(), t.end(), time);
-  if (after == t.end() || (after == t.begin() && *after > time))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (after == t.end() || after == t.begin())
+    return after == t.end() ? y.back() : y.front();
   const auto k = static_cast<size_t>(after - t.begin());
   return t[k] == time ? y[k] : y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
 }
 
+/// What errors of the target are divided by: its scale, or else what is measured by.
+double scale_of(const Target& target, double otherwise, const std::string& unit) {
+  const double scale = target.scale.empty() ? std::abs(otherwise) : quantity(target.scale, unit, target.where);
+  if (!(scale > 0 && std::isfinite(scale)))
+    fail({Exit::bad_input, fmt::format("errors cannot be told relative to {:.6g}", scale), target.where,
+          target.scale.empty() ? "" : shown(target.scale), "a reference other than 0, or a scale greater than 0",
+          fmt::format("scale = \"1 {}\"", unit)});
+  return scale;
+}
+
 /// Root mean square, over the points of the curve in the window, of the distance from it.
-Taken against_curve(const Result& r, const Target& target, const std::vector<double>& t, const std::vector<double>& y,
+Taken against_curve(const Target& target, const std::vector<double>& t, const std::vector<double>& y,
                     const std::string& unit) {
-  const NumericTable curve = read_numeric_table(target.reference.file, "the reference curve", r.where);
+  const std::string &file = target.reference.file, &where = target.where;
+  const NumericTable curve = read_numeric_table(file, "the reference curve", where);
   if (curve.columns.size() != 2)
-    fail({Exit::bad_input, "a reference curve has two columns", r.where, target.reference.file, "time and value", ""});
-  const double second = quantity("1 " + curve.units[0], "s", r.where);
-  const double scale = curve.units[1] == "1" ? 1 : quantity("1 " + curve.units[1], unit, r.where);
+    fail({Exit::bad_input, "a reference curve has two columns", where, file, "time and value", ""});
+  const double second = quantity("1 " + curve.units[0], "s", where), end = t.back() * (1 + 1e-9);
+  const double scale = curve.units[1] == "1" ? 1 : quantity("1 " + curve.units[1], unit, where);
   double sum = 0, largest = 0;
   long points = 0;
   for (size_t k = 0; k < curve.columns[0].size(); ++k) {
     const double time = second * curve.columns[0][k], wanted = scale * curve.columns[1][k];
     if (time < target.from || time > target.to)
       continue;
+    if (time > end)
+      fail({Exit::bad_input, fmt::format("the reference curve goes on past the end of the run, {:.6g} s", t.back()),
+            where, file, "a window that the run reaches", fmt::format("to = \"{:.6g} s\"", t.back())});
     sum += std::pow(at(t, y, time) - wanted, 2);
     largest = std::max(largest, std::abs(wanted));
     ++points;
   }
   if (points == 0)
-    fail({Exit::bad_input, "the reference curve has no point in the window", r.where, target.reference.file, "", ""});
+    fail({Exit::bad_input, "the reference curve has no point in the window", where, file, "", ""});
   const double rms = std::sqrt(sum / static_cast<double>(points));
-  return {rms, rms / (target.scale.empty() ? largest : quantity(target.scale, unit, r.where)), unit};
+  return {rms, rms / scale_of(target, largest, unit), unit};
 }
 
 }  // namespace
 
-double relative_error(const Result& r, const Target& target, double value, double reference, const std::string& unit) {
-  if (reference == 0 && target.scale.empty())
-    fail({Exit::bad_input, "errors cannot be told relative to 0", r.where, "reference = 0",
-          "a reference other than 0, or a scale", "scale = \"1 J\""});
-  return std::abs(value - reference) /
-         (target.scale.empty() ? std::abs(reference) : quantity(target.scale, unit, r.where));
+double relative_error(const Target& target, double value, double reference, const std::string& unit) {
+  return std::abs(value - reference) / scale_of(target, reference, unit);
 }
 
 Taken take_result(const Result& r, const Target& target, const std::string& column, const NumericTable& history) {
-  const size_t c = history.find(column, r.where + ".column");
+  const size_t c = history.find(column, target.where + ": column");
   const std::vector<double>&t = history.columns[0], &y = history.columns[c];
   const std::string& unit = history.units[c];
   if (r.take == Take::curve)
-    return against_curve(r, target, t, y, unit);
+    return against_curve(target, t, y, unit);
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto [first, last] = rows_within(target, t);
   if (first == last)
-    fail({Exit::bad_input, "no row of the history lies in the window", r.where, "", "times that the run reaches", ""});
+    fail({Exit::bad_input, "no row of the history lies in the window", target.where, "", "times that the run reaches",
+          ""});
   const auto begin = y.begin() + static_cast<long>(first), end = y.begin() + static_cast<long>(last);
   Taken taken{none, none, unit};
   switch (r.take) {
@@ -108,7 +121,7 @@ Taken take_result(const Result& r, const Target& target, const std::string& colu
     default: taken.value = *(end - 1);
   }
   if (target.reference.kind == Reference::Kind::value)
-    taken.error = relative_error(r, target, taken.value, quantity(target.reference.value, unit, r.where), unit);
+    taken.error = relative_error(target, taken.value, quantity(target.reference.value, unit, target.where), unit);
   return taken;
 }
 

@@ -18,8 +18,8 @@ struct Taken {
 /// read.
 Taken take_result(const Result& result, const Target& target, const std::string& column, const NumericTable& history);
 
-/// |value - reference| over the target's scale, or over |reference|.
-double relative_error(const Result& result, const Target& target, double value, double reference,
-                      const std::string& unit);
+/// |value - reference| over the target's scale, or over |reference|. Throws Error (bad_input) where that is not a
+/// number greater than 0.
+double relative_error(const Target& target, double value, double reference, const std::string& unit);
 
 }  // namespace riven::study

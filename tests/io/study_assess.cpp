@@ -106,6 +106,8 @@ TEST_F(Assessing, ExtrapolatesWhereThereIsNoReference) {
   EXPECT_NEAR(r.limits[0]->spread, 2, 1e-9);
   EXPECT_NEAR(r.points[4].error, 3 / 98., 1e-9);
   EXPECT_NE(r.reference.find("1 could be extrapolated"), std::string::npos) << r.reference;
+  const ResultReport none = assess({90, 104, 96}, {90, 104, 98}).results[0];
+  EXPECT_NE(none.reference.find("none could be extrapolated"), std::string::npos) << none.reference;
   EXPECT_FALSE(assess({1, 2, NAN}, {1, 2, NAN}).results[0].limits[0]);
 }
 
@@ -134,6 +136,8 @@ TEST_F(AssessingProblems, CountTheLargestErrorAndTheTimeOfAll) {
   EXPECT_DOUBLE_EQ(r.points[1].cost, 16);
   EXPECT_EQ(cheapest(r.settled, 0.06), std::optional<size_t>(1));
   EXPECT_EQ(r.reference, "load small: 100; load large: 200");
+  study_.results[0].targets[1].reference.value = "100";
+  EXPECT_EQ(assess({1, 1, 1}, {1, 1, 1}).results[0].reference, "100");
   EXPECT_EQ(keys_of(study_, members_, s.settings[1]), std::vector<std::string>{}) << "the load is no part of it";
 }
 
@@ -143,6 +147,16 @@ TEST_F(AssessingProblems, ASettingThatFailsInOneOfThemIsNotGood) {
   EXPECT_EQ(s.methods[0].stands, std::optional<size_t>(2));
   EXPECT_TRUE(std::isnan(s.results[0].points[1].error));
   EXPECT_EQ(cheapest(s.results[0].settled, 0.2), std::optional<size_t>(2));
+}
+
+TEST_F(AssessingProblems, AreNoneOfThoseOfTheSceneAsItIs) {
+  assess({116, 104, 101}, {250, 190, 198});
+  members_.members.push_back({{}, members_.runs.size(), "", "nothing"});
+  add(101, 1);
+  const Assessment s = study::assess(study_, members_, records_, store_);
+  EXPECT_EQ(s.results[0].taken.back().value, 101);
+  EXPECT_TRUE(std::isnan(s.results[0].taken.back().error));
+  EXPECT_EQ(s.settings.size(), 3u);
 }
 
 TEST_F(AssessingProblems, AreExtrapolatedEachByItself) {

@@ -1,6 +1,7 @@
 // Study files: what they mean, and what is said of those that are wrong.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -91,10 +92,16 @@ TEST(ReadStudy, ProblemsHaveTargetsOfTheirOwn) {
   EXPECT_EQ(two.reference.value, "2");
   EXPECT_EQ(one.scale, "3 J/m^2");
   EXPECT_EQ(two.scale, "3 J/m^2");
-  const Study curves = parse_study(
-      problems("take = \"mean\"\nfrom = \"0.2 ms\"\nreference = \"13.4 kJ/m^2\"", "curve = [\"a.csv\", \"b.csv\"]"),
-      "in/J.toml");
-  EXPECT_EQ(curves.results[0].targets[1].reference.file, "in/b.csv");
+  const std::string folder = testing::TempDir();
+  for (const char* file : {"riven_a.csv", "riven_b.csv"})
+    std::ofstream(folder + "/" + file) << "t [s],J [J/m^2]\n0,0\n";
+  const std::string pair = problems("take = \"mean\"\nfrom = \"0.2 ms\"\nreference = \"13.4 kJ/m^2\"",
+                                    "curve = [\"riven_a.csv\", \"riven_b.csv\"]");
+  const Study curves = parse_study(pair, folder + "/J.toml");
+  EXPECT_EQ(std::filesystem::path(curves.results[0].targets[1].reference.file).filename(), "riven_b.csv");
+  EXPECT_NE(curves.results[0].targets[1].where.find("transfer FMPM"), std::string::npos);
+  std::filesystem::remove(folder + "/riven_b.csv");
+  EXPECT_THROW(parse_study(pair, folder + "/J.toml"), Error);
 }
 
 TEST(ReadStudy, ProblemsThatDoNotMatch) {
@@ -116,6 +123,11 @@ TEST(ReadStudy, ProblemsThatDoNotMatch) {
   EXPECT_NE(second.find("several axes are problems"), std::string::npos) << second;
   const std::string refined = complaint(changed("refined = true", "refined = true\nproblem = true"));
   EXPECT_NE(refined.find("vary.0.problem"), std::string::npos) << refined;
+  for (const char* odd : {"[[1, 2], 3]", "[true, 3]", "[{ a = 1 }, 3]"}) {
+    const std::string text = complaint(problems("\"13.4 kJ/m^2\"", odd));
+    EXPECT_NE(text.find("result.0.reference"), std::string::npos) << text;
+    EXPECT_NE(text.find("expected a text or a number"), std::string::npos) << text;
+  }
   const std::string late = complaint(problems("from = \"0.2 ms\"", "from = [\"0.2 ms\", \"9 ms\"]\nto = \"1 ms\""));
   EXPECT_NE(late.find("result.0.to"), std::string::npos) << late;
 }
@@ -199,6 +211,20 @@ TEST(StudyMembers, ReadByRulesThatAreTexts) {
   EXPECT_TRUE(m.runs[0].refused.empty()) << m.runs[0].refused;
 }
 
+/// Settings that say what the scene does, and the same in other words, are the same run.
+TEST(StudyMembers, ShareRunsOfTheSameScene) {
+  const Study s = parse_study(changed("key = \"fracture.contour\"\nvalues = [4, 8]",
+                                      "choice = [{ label = \"a\", set = [\"solver.cfl=0.4\"] }, { label = \"b\", set "
+                                      "= [\"solver.cfl=0.40\"] }, { label = \"c\", set = [\"solver.cfl=0.3\"] }]"),
+                              "J.toml");
+  const Members m = expand(s, sent);
+  EXPECT_EQ(m.members[0].run, m.members[1].run);
+  EXPECT_NE(m.members[0].run, m.members[2].run);
+  for (size_t a = 0; a < m.runs.size(); ++a)
+    for (size_t b = 0; b < a; ++b)
+      EXPECT_NE(m.runs[a].hash, m.runs[b].hash);
+}
+
 /// The same settings mean the same run, others another one.
 TEST(StudyMembers, AreKnownByWhatTheyRun) {
   const auto hash = [](const std::string& text) { return expand(parse_study(text, "J.toml"), sent).runs[0].hash; };
@@ -230,9 +256,9 @@ struct Wanted {
   Result result;
   Target target;
 
-  Wanted(Take take, double from, double to) : target{from, to, {Reference::Kind::value, "0.03 kJ/m^2", ""}, ""} {
+  Wanted(Take take, double from, double to)
+      : target{from, to, {Reference::Kind::value, "0.03 kJ/m^2", ""}, "", "J.toml:9: result.0"} {
     result.take = take;
-    result.where = "J.toml:9: result.0";
   }
   Taken taken(const std::string& column = "H last J") const { return take_result(result, target, column, history()); }
 };
@@ -260,6 +286,13 @@ TEST(StudyResults, AreTakenFromAWindow) {
   other.target.reference.value = "2 Pa m^0.5";
   other.target.scale = "8 Pa m^0.5";
   EXPECT_DOUBLE_EQ(other.taken("K").error, 0.25);
+  for (const char* scale : {"-8 Pa m^0.5", "0 Pa m^0.5"}) {
+    other.target.scale = scale;
+    EXPECT_THROW(other.taken("K"), Error) << scale;
+  }
+  other.target.scale = "";
+  other.target.reference.value = "inf";
+  EXPECT_THROW(other.taken("K"), Error);
 }
 
 TEST(StudyResults, AreHeldAgainstCurvesInTheirUnits) {
@@ -271,7 +304,12 @@ TEST(StudyResults, AreHeldAgainstCurvesInTheirUnits) {
   EXPECT_NEAR(t.value, 10 / std::sqrt(2.), 1e-12);
   EXPECT_NEAR(t.error, t.value / 50, 1e-14);
   curve.target.from = 3.5;
-  EXPECT_THROW(curve.taken(), Error);
+  EXPECT_THROW(curve.taken(), Error);  // it has no point there
+  curve.target.from = 0;
+  curve.target.to = 10;
+  EXPECT_THROW(curve.taken(), Error);  // it goes on to 9 s, the run to 4
+  std::ofstream(file) << "t [ms],J [kJ/m^2]\n500,0.015\n4000.0000000000005,0.050\n";
+  EXPECT_NEAR(curve.taken().value, 10 / std::sqrt(2.), 1e-9) << "a rounding later than the run ends";
   curve.target.reference.file += ".none";
   EXPECT_THROW(curve.taken(), Error);
 }
