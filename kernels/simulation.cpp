@@ -49,7 +49,7 @@ void tally_there(const exec::Space& space, const Plan& plan, State<Real, 2>& s) 
 
 template <class Real>
 SimulationOf<Real>::SimulationOf(const Scene& s, const exec::Space& where)
-    : scene(draw_mouths(s)), space(where), plan(make_plan(s)), tasks(tasks_for<Real>(s, plan, where)) {
+    : scene(s), space(where), plan(make_plan(s)), tasks(tasks_for<Real>(s, plan, where)) {
   if (scene.precision != precision_of<Real>)
     fail({Exit::internal, "the simulation has not the precision of its scene", s.name});
   begin();
@@ -69,7 +69,7 @@ void SimulationOf<Real>::begin() {
     t.calls = 0;
     t.seconds = 0;
   }
-  make_state(scene, plan, state);
+  make_state(draw_mouths(scene), plan, state);
   if (plan.constraints)
     make_constraints(scene, state);
   if (plan.loads)

@@ -32,7 +32,7 @@ class SimulationOf {
  public:
   using Task = TaskOf<Real>;
 
-  /// The space must outlive the simulation. Throws Error (bad input).
+  /// Scene and space must outlive the simulation. Throws Error (bad input).
   SimulationOf(const Scene& scene, const exec::Space& space);
 
   /// Back to the first state.
@@ -43,7 +43,7 @@ class SimulationOf {
   /// Brings energies and momenta in the ledger up to date, and checks them.
   void take_stock();
 
-  const Scene scene;  ///< with the mouths of its cracks drawn on
+  const Scene& scene;
   const exec::Space& space;
   const Plan plan;
   State<Real, 2> state;
