@@ -133,13 +133,25 @@ class FaceIntegral {
 
   bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > bent; }
 
-  /// Does the crack turn sharply between this segment and the next one towards the tip?
+  /// Does the crack turn sharply between this segment and the next one towards the tip, where it was drawn? What has
+  /// grown is next to the tip, and J of what drives it would be that of the least contour.
   bool is_sharp(const Segment& s) const {
     const int ahead = s.k + (task_.last ? 1 : -1);
     if (ahead < cracks_.end_point(task_.crack, false) || ahead >= cracks_.end_point(task_.crack, true))
       return false;
     const Vec2 along = view_.plane[ahead + 1] - view_.plane[ahead];
-    return dot(turned(along), s.normal) < sharp * norm(along);
+    return dot(turned(along), s.normal) < sharp * norm(along) && length_before(s) > task_.grown + 0.1 * h_;
+  }
+
+  /// Length of the crack from the tip to a segment.
+  double length_before(const Segment& s) const {
+    double length = 0;
+    for (int k = cracks_.end_point(task_.crack, task_.last); k != s.k + int{task_.last};) {
+      const int next = k + (task_.last ? -1 : 1);
+      length += norm(view_.plane[next] - view_.plane[k]);
+      k = next;
+    }
+    return length;
   }
 
   /// A segment itself, or, nearer to the tip than so many cells, the first one behind it that is not.
@@ -283,8 +295,8 @@ class FaceIntegral {
   /// with 1e-3 J of ten cracks in a plate differs by 6e-5 at most, and takes twice as long.
   static constexpr double straight = 1e-2;
   static constexpr double bent = 0.2;    ///< and from which on the crack is bent for the interaction integral
-  static constexpr double sharp = 0.26;  ///< cosine of the angle between segments of a sharp bend, 75 degrees: J is 30
-                                         ///< % low at 80; cracks that grow turn by 70.5 at most
+  static constexpr double sharp = 0.26;  ///< cosine of the angle between segments of a sharp bend, 75 degrees: J is 13
+                                         ///< % low at 70, 30 at 80
   static constexpr double torn = 2;      ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
   static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction

@@ -46,6 +46,7 @@ struct TipTask {
   std::optional<JDomain> core;  ///< within the domain, where what inertia adds is left out
   int crack = 0;
   bool last = true;         ///< which end of the crack it is
+  double grown = 0;         ///< m, length by which the crack has grown there
   Vec2 heading;             ///< unit vector out of the tip along the crack
   Vec2 turn{1, 0};          ///< cosine and sine of the angle by which the heading has turned since the crack was laid
   bool other_faces = true;  ///< asks for the faces of other cracks

@@ -61,6 +61,7 @@ TipTask TipContours<Real>::place(DueTip& d) const {
   task.turn = {dot(laid, task.heading), cross(laid, task.heading)};
   task.solid = &solids_[static_cast<size_t>(tip.material)];
   task.thickness = s_.thickness[tip.body];
+  task.grown = tip.length;
   task.running = RunningTip(*task.solid, std::min(tip.speed, fastest_fields * task.solid->shear_speed));
   if (!m_.contact_sums.touched.empty())
     task.touched = m_.contact_sums.touched.data();

@@ -109,7 +109,7 @@ TEST(ContactRuns, ElasticBarsExchangeTheirVelocities) {
     while (m.state.clock.time < 1.5 * duration) {
       const long before = m.contact_after.touching;
       m.step();
-      if (m.contact_after.touching > before)
+      if (m.contact_after.touching >= before + 5)  // of ten, twice five nodes; corners may touch once more
         last_contact = m.state.clock.time;
     }
     m.take_stock();
@@ -227,8 +227,10 @@ TEST(ContactRuns, TwoCrossingClosedCracksCarryTheLoadOfASqueezedBlock) {
   }
 }
 
-/// A body pressed onto another by a weight g slides down to rest under friction: it loses mu g t of its speed, the
-/// lower body (of the same mass, free to move) gains as much, until both move together.
+/// A body pressed onto another by a weight slides to rest under friction: what it loses of its speed the lower body, of
+/// the same mass and free to move, gains, until both move together. The weight is there at once: in a column of height
+/// H = 2 y on a floor, with waves of speed c, what y bears of it is 0 up to y / c, then g c (t - y / c) of the mass
+/// above, and from 3 y / c to 5 y / c twice that at rest.
 TEST(ContactRuns, FrictionSlowsASlidingBodyByCoulombsLaw) {
   const double mu = 0.3, g = 10, speed = 0.3;
   Scene s = make_scene(1. / 8, {{-1, -0.5}, {3, 1.5}});
@@ -255,9 +257,12 @@ TEST(ContactRuns, FrictionSlowsASlidingBodyByCoulombsLaw) {
   while (m.state.clock.time < 0.5 * rest)
     m.step();
   const TwoBars half = along();
-  EXPECT_NEAR(half.up, speed - mu * g * m.state.clock.time, 0.05 * speed);
-  EXPECT_NEAR(half.low, mu * g * m.state.clock.time, 0.05 * speed);
-  while (m.state.clock.time < 2 * rest)
+  const double y = 0.25, c = std::sqrt(1e3), t = m.state.clock.time;
+  const double borne = g * c * (0.5 * std::pow(2 * y / c, 2) + 2 * y / c * (t - 3 * y / c)) / y;  // per mass
+  ASSERT_GT(t, 3 * y / c);
+  EXPECT_NEAR(half.up, speed - mu * borne, 0.01 * speed);
+  EXPECT_NEAR(half.low, mu * borne, 0.01 * speed);
+  while (m.state.clock.time < 4 * rest)  // they swing against each other at first
     m.step();
   const TwoBars end = along();
   EXPECT_NEAR(end.up, 0.5 * speed, 0.03 * speed);
