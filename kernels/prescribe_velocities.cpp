@@ -50,10 +50,10 @@ void claim_box(std::vector<Constraint>& list, exec::Array<int>& at_node, const L
           claim(list, at_node, j * l.nx + i, axis, number);
 }
 
-/// The nodes on which a rigid particle has a weight of a hundredth along either axis. With less, those of the next row
-/// move as the body has them: else it would be a cell shorter as soon as a grip is pushed into it, however little. With
-/// a larger share left free, what a bar's stress loses at its ends where they move past grid lines would be more than a
-/// per cent.
+/// The nodes on which a rigid particle has a weight of a hundredth or more along both axes. With less, those of the
+/// next row move as the body has them: else it would be a cell shorter as soon as a grip is pushed into it, however
+/// little. With a larger share left free, what a bar's stress loses at its ends where they move past grid lines would
+/// be more than a per cent.
 template <class Shape>
 void claim_grip(std::vector<Constraint>& list, exec::Array<int>& at_node, const Lattice& l, const GripBlock& grip,
                 const ConstraintOwner& owner) {

@@ -68,9 +68,11 @@ Scene draw_mouths(Scene scene) {
       std::vector<Vec2>& points = scene.cracks[c].points;
       const Vec2 x = last ? points.back() : points.front();
       const auto differs = [&](Vec2 p) { return norm(p - x) > 0; };
-      const auto before = last ? std::find_if(points.rbegin(), points.rend(), differs).base() - 1
-                               : std::find_if(points.begin(), points.end(), differs);
-      const Vec2 step = x - *before, way = (1 / norm(step)) * step;
+      if (std::none_of(points.begin(), points.end(), differs))
+        continue;  // it has no length, which is refused where it is laid
+      const Vec2 before = last ? *std::find_if(points.rbegin(), points.rend(), differs)
+                               : *std::find_if(points.begin(), points.end(), differs);
+      const Vec2 step = x - before, way = (1 / norm(step)) * step;
       if (const double on = way_on(drawn, c, last, x, way); on > 0)
         points.insert(last ? points.end() : points.begin(), x + on * way);
     }
