@@ -90,6 +90,18 @@ double opening_at_wall(ShapeFunction shape, double y) {
   return c.upper[k].y - c.lower[k].y;
 }
 
+// J of a crack of 12 mm from the left edge is 43.0 J/m^2 on cells of a quarter of the size, wherever its drawn end
+// lies: beyond the edge, on it, or next to it. A crack that was held together at its mouth had 15.6.
+TEST(Mouths, GiveTheJOfAnEdgeCrack) {
+  const ChosenSpace space;
+  for (const double from : {-22e-3, -20e-3, -19.8e-3}) {
+    const double J = last_J(pulled_plate(crack("edge", {{from, 0}, {-8e-3, 0}}), 4), space);
+    gates::report(fmt::format("crack drawn from {:.1f} mm: J over its reference, less 1", from * 1e3), J / 43.0 - 1,
+                  "0.03");
+    EXPECT_NEAR(J, 43.0, 0.03 * 43.0);
+  }
+}
+
 TEST(Mouths, OpenAtAWallAlsoOnAGridLine) {
   for (const ShapeFunction shape : {ShapeFunction::ugimp, ShapeFunction::bspline}) {
     const double on = opening_at_wall(shape, 0), off = opening_at_wall(shape, 1e-4);

@@ -2,6 +2,8 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/scene/names.hpp"
@@ -41,6 +43,43 @@ inline CrackLine crack(const char* name, std::vector<Vec2> points) {
 
 inline TimeFunction constant(double value) {
   return {value, {}, ""};
+}
+
+/// A plate of 40 mm x 40 mm about the origin on cells of 1 mm, pulled up and down by 1 MPa until it rests: plane
+/// stress, E = 3 GPa, nu = 0.3, 1200 kg/m^3.
+inline Scene pulled_plate(CrackLine line, int contour) {
+  Scene s = empty_scene(1e-3, {{-26e-3, -26e-3}, {26e-3, 26e-3}});
+  s.materials = {{"plate", LawKind::linear_elastic, 3e9, 0.3, 1200}};
+  s.thickness = 1e-3;
+  s.plane = Plane::stress;
+  s.transfer = Transfer::fmpm;
+  s.order = 1;
+  s.bodies = {body("plate", Rectangle{{-20e-3, -20e-3}, {20e-3, 20e-3}})};
+  s.cracks = {std::move(line)};
+  for (const bool top : {false, true}) {
+    Load l;
+    l.name = top ? "top" : "bottom";
+    l.kind = Load::Kind::traction;
+    l.edge = top ? Load::Edge::top : Load::Edge::bottom;
+    l.region = top ? Rectangle{{-20e-3, 18e-3}, {20e-3, 20e-3}} : Rectangle{{-20e-3, -20e-3}, {20e-3, -18e-3}};
+    l.value[1] =
+        TimeFunction{top ? 1e6 : -1e6,
+                     [](double t) { return t < 1e-4 ? 0.5 - 0.5 * std::cos(std::numbers::pi * t / 1e-4) : 1; }, ""};
+    s.loads.push_back(l);
+  }
+  s.grid_damping = constant(6e4);
+  s.end_time = 3e-4;
+  s.fracture.asked = true;
+  s.fracture.contour = contour;
+  return s;
+}
+
+/// J/m^2 at the first tip, at the end of the run.
+inline double last_J(const Scene& s, const exec::Space& space) {
+  Simulation m(s, space);
+  while (!m.finished())
+    m.step();
+  return m.state.tips[0].J;
 }
 
 /// Pa, the largest component over all particles (of bodies of `density`).
