@@ -57,14 +57,17 @@ pid_t Children::start(const std::vector<std::string>& command, const std::filesy
   return child;
 }
 
-ChildEnd Children::wait() {
+ChildEnd Children::wait(const std::function<void()>& at_signal) {
   ChildEnd end;
   int status = 0;
   rusage used{};
   for (;;) {
     end.child = wait4(-1, &status, 0, &used);
-    if (end.child < 0 && errno == EINTR)
+    if (end.child < 0 && errno == EINTR) {
+      if (at_signal)
+        at_signal();
       continue;
+    }
     const auto which =
         std::find_if(started_.begin(), started_.end(), [&](const auto& s) { return s.first == end.child; });
     if (end.child < 0)
@@ -80,6 +83,11 @@ ChildEnd Children::wait() {
   end.cpu = seconds(used.ru_utime) + seconds(used.ru_stime);
   end.memory = used.ru_maxrss * 1024;
   return end;
+}
+
+void Children::signal(int number) const {
+  for (const auto& [child, since] : started_)
+    kill(child, number);
 }
 
 std::filesystem::path own_program() {

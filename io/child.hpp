@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ class Children {
  public:
   /// Starts `command`, a file and its arguments, without input; what it prints goes to `log`. Throws Error (file).
   pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log);
-  /// Waits for one to end; there must be one.
-  ChildEnd wait();
+  /// Waits for one to end; there must be one. `at_signal` is called when a signal ends the waiting, which goes on then.
+  ChildEnd wait(const std::function<void()>& at_signal = {});
+  /// Sends a signal to all that run.
+  void signal(int number) const;
   size_t running() const { return started_.size(); }
 
  private:

@@ -34,12 +34,12 @@ void note(int signal) {
 
 }  // namespace
 
-StopRequest::StopRequest(double wall_limit) : end_(exec::Stopwatch::now() + wall_limit) {
+StopRequest::StopRequest(double wall_limit, Waits waits) : end_(exec::Stopwatch::now() + wall_limit) {
   noted = 0;
   for (int i = 0; i < signal_count; ++i) {
     struct sigaction action {};
     action.sa_handler = note;
-    action.sa_flags = SA_RESTART;
+    action.sa_flags = waits == Waits::resume ? SA_RESTART : 0;
     sigaction(signals[i], nullptr, &before_[i]);
     if (before_[i].sa_handler != SIG_IGN)
       sigaction(signals[i], &action, nullptr);

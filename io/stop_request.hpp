@@ -10,8 +10,9 @@ namespace riven {
 /// program was started to ignore stay ignored. One at a time.
 class StopRequest {
  public:
-  /// `wall_limit`: s from now.
-  explicit StopRequest(double wall_limit);
+  enum class Waits { resume, end };
+  /// `wall_limit`: s from now. `waits`: whether system calls that wait go on after a signal, or end with EINTR.
+  explicit StopRequest(double wall_limit, Waits waits = Waits::resume);
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -12,6 +14,7 @@
 #include "core/exec/space.hpp"
 #include "io/atomic_file.hpp"
 #include "io/child.hpp"
+#include "io/stop_request.hpp"
 #include "io/text_file.hpp"
 
 namespace riven::study {
@@ -82,10 +85,16 @@ class Runner {
           continue;
         while (children_.running() >= abreast_)
           end_one();
+        if (stop_.asked())
+          break;
         begin(r);
       }
       while (children_.running() > 0)
         end_one();
+      if (stop_.asked())
+        fail({Exit::interrupted,
+              fmt::format("interrupted by {}: {} of {} runs are done, and kept", stop_.by(), done(), runs_.size()), "",
+              "", "", "the same command once more, which goes on"});
     }
     return std::move(records_);
   }
@@ -126,7 +135,10 @@ class Runner {
   }
 
   void end_one() {
-    const ChildEnd end = children_.wait();
+    const ChildEnd end = children_.wait([&] {
+      if (stop_.asked())
+        children_.signal(SIGTERM);  // for those that the signal did not reach
+    });
     const size_t r = under_way_.at(end.child);
     under_way_.erase(end.child);
     const fs::path from = folder(r);
@@ -136,6 +148,9 @@ class Runner {
             "see to that, and start the study again: what is done is kept\n" + fresh.message});
     if (round_ == 0) {
       records_[r] = std::move(fresh);
+    } else if (!fresh.done()) {
+      fs::remove_all(from);
+      return;
     } else {
       records_[r].wall.push_back(end.wall);
       records_[r].cpu.push_back(end.cpu);
@@ -143,6 +158,11 @@ class Runner {
     }
     store_.keep(runs_[r], records_[r]);
     report(r);
+  }
+
+  size_t done() const {
+    return static_cast<size_t>(std::count_if(records_.begin(), records_.end(),
+                                             [](const Record& r) { return !r.wall.empty() && !r.cut_short(); }));
   }
 
   void report(size_t r) const {
@@ -178,6 +198,7 @@ class Runner {
   const std::function<void(const Advance&)>& report_;
   std::vector<Record> records_;
   std::vector<size_t> order_;  ///< of the runs, by their work
+  StopRequest stop_{std::numeric_limits<double>::infinity(), StopRequest::Waits::end};
   Children children_;
   std::map<pid_t, size_t> under_way_;
   int threads_ = 1;

@@ -256,6 +256,31 @@ TEST_F(StudyRuns, GoOnWhereTheyWereKilled) {
   EXPECT_EQ(study()["members"].size(), 8u);
 }
 
+/// Asked to stop, a study asks its runs to, says what is done, and goes on from there the next time.
+TEST_F(StudyRuns, StopWhenAskedTo) {
+  write();
+  Children children;
+  const pid_t study =
+      children.start({RIVEN_PROGRAM, "study", (folder_ / "cells.toml").string(), "-o", out_}, folder_ / "log.txt");
+  while (records().size() < 3 || writing() < 2)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(study, SIGTERM);
+  EXPECT_EQ(children.wait().code, 5);
+  EXPECT_EQ(writing(), 0);
+  const std::string said = sample::text_of(folder_ / "log.txt");
+  EXPECT_NE(said.find("interrupted by SIGTERM: "), std::string::npos) << said;
+  EXPECT_NE(said.find(" of 8 runs are done, and kept"), std::string::npos) << said;
+  const auto before = records();
+  EXPECT_LT(before.size(), 8u);
+  ASSERT_EQ(riven(call("--no-timing"), folder_).code, 0);
+  const auto after = records();
+  EXPECT_EQ(after.size(), 8u);
+  long kept = 0;
+  for (const auto& [run, time] : before)
+    kept += after.at(run) == time;
+  EXPECT_GE(kept, 3);
+}
+
 /// A run that dies is a point that failed, and is tried again the next time.
 TEST_F(StudyRuns, OutliveRunsThatCrash) {
   write("", R"("4 mm", "2 mm", "0.05 mm")");
