@@ -11,7 +11,7 @@ namespace {
 /// The quantities of all runs that there may be.
 std::vector<HistoryColumn> all_quantities() {
   Plan plan{};
-  plan.contact = plan.constraints = plan.tractions = true;
+  plan.cracks = plan.contact = plan.constraints = plan.tractions = true;
   plan.transfer = Transfer::fmpm;
   std::vector<HistoryColumn> list = quantity_columns(plan);
   list.push_back(growth_column());
@@ -22,7 +22,7 @@ std::vector<HistoryColumn> all_quantities() {
 
 std::vector<Watched> watched(const Plan& plan) {
   std::vector<Watched> list{Watched::compression, Watched::expansion, Watched::velocity_difference};
-  if (plan.contact)
+  if (plan.cracks)
     list.push_back(Watched::penetration);
   return list;
 }

@@ -71,7 +71,7 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);
   for (const auto& [which, name] : Names<Watched>::table)
-    if (which != Watched::penetration || m.plan.contact) {
+    if (which != Watched::penetration || m.plan.cracks) {
       const Monitor& watched = monitor(s.monitors, which);
       out.watched.push_back({std::string(name), watched.worst, text_of(which).unit, watched.place});
     }

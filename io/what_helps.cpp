@@ -28,6 +28,12 @@ constexpr Setting settings[] = {
      }},
     {"contact.law = \"ignored\"",
      [](const Scene& s) { return s.cracks.empty() || s.contact.law == ContactLaw::ignored; }},
+    {"a contact.law that",
+     [](const Scene& s) {
+       return std::none_of(s.cracks.begin(), s.cracks.end(), [&](const CrackLine& c) {
+         return c.contact.value_or(s.contact).law == ContactLaw::ignored;
+       });
+     }},
     {"contact.detection = \"displacement\"",
      [](const Scene& s) { return s.contact_rules.detection == ContactDetection::displacement; }},
 };

@@ -54,13 +54,12 @@ Vec2 place_of_stretch(const Particles<Real, 2>& p, long chunk) {
 /// way as the fourth. It lags behind the energy by so many times what that of a load at once does.
 constexpr double power_of_work = 6;
 
-/// The largest of faces that contact keeps apart. Points of both faces that have slid by more than a cell no longer lie
-/// opposite each other: what is between them says nothing of an overlap.
+/// The largest of all faces, also of those that may pass through each other: what follows is no solid. Points of both
+/// faces that have slid by more than a cell no longer lie opposite each other: what is between them says nothing of an
+/// overlap.
 Overlap penetration(const Cracks& cracks, double cell) {
   Overlap most;
   for (int i = 0; i < cracks.points(); ++i) {
-    if (cracks.contact[cracks.crack[i]].law == ContactLaw::ignored)
-      continue;
     const FacePair opening = face_opening(cracks, i);
     const double overlap = -opening.normal;
     if (overlap > most.depth && std::abs(opening.sliding) < cell)
@@ -117,7 +116,7 @@ void watch_figures(SimulationOf<Real>& m) {
   look(Watched::expansion, d.largest_J, [&] { return place_of_det_F(s.particles, d.largest_J_chunk, d.largest_J); });
   look(Watched::stretch, d.stretch, [&] { return place_of_stretch(s.particles, d.stretch_chunk); });
   look(Watched::velocity_difference, s.watch.velocity_difference, no_place);
-  if (m.plan.contact) {
+  if (m.plan.cracks) {
     const Overlap most = penetration(s.cracks, s.grid.lattice.h);
     look(Watched::penetration, most.depth / s.grid.lattice.h, [&] { return most.place; });
   }

@@ -46,7 +46,7 @@ inline constexpr WatchedText watched_texts[watched_figures] = {
     {"a particle is stretched far: shape functions do not stretch with it, and a whole body may tear", "",
      "solver.transfer = \"fmpm\" or \"xpic\"; a larger particles_per_cell"},
     {"the faces of a crack overlap", "cells",
-     "contact.detection = \"displacement\"; a smaller solver.cfl; smaller cells"},
+     "a contact.law that keeps faces apart; contact.detection = \"displacement\"; a smaller solver.cfl; smaller cells"},
     {"a particle's velocity is far from the grid's", "m/s", "solver.transfer = \"fmpm\" or \"xpic\"; smaller cells"}};
 
 inline constexpr const WatchedText& text_of(Watched which) {

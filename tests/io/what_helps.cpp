@@ -13,6 +13,8 @@ TEST(WhatHelps, LeavesOutWhatTheSceneHasAlready) {
   s.transfer = Transfer::pic;
   s.contact_rules.detection = ContactDetection::volume;
   s.cracks.resize(1);
+  s.cracks[0].contact = s.contact;
+  s.cracks[0].contact->law = ContactLaw::ignored;
   s.materials = {{"steel", LawKind::neo_hookean, 200e9, 0.3, 7850}, {"resin", LawKind::linear_elastic, 3e9, 0.3, 1200}};
   for (const auto& text : watched_texts)
     EXPECT_EQ(what_helps(text.advice, s), text.advice);
@@ -28,6 +30,9 @@ TEST(WhatHelps, LeavesOutWhatTheSceneHasAlready) {
   EXPECT_EQ(what_helps(orders, s), orders);
   s.stress_update = StressUpdate::usavg;
   EXPECT_TRUE(what_helps(text_of(Watched::energy).advice, s).starts_with("a smaller solver.cfl; contact.law"));
+  EXPECT_TRUE(what_helps(text_of(Watched::penetration).advice, s).starts_with("a contact.law that keeps"));
+  s.cracks[0].contact.reset();
+  EXPECT_TRUE(what_helps(text_of(Watched::penetration).advice, s).starts_with("contact.detection"));
   s.cracks.clear();
   EXPECT_EQ(what_helps(text_of(Watched::energy).advice, s), "a smaller solver.cfl");
   s.materials.pop_back();
