@@ -87,32 +87,45 @@ void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
-/// A material other than the tip's own in its largest contour, or -1.
-int other_material_near(const Scene& s, const Tip& tip, Vec2 at) {
+double thickness_of(const Scene& s, const Body& b) {
+  return b.thickness > 0 ? b.thickness : s.thickness;
+}
+
+/// A body of other material or thickness than the tip's own in its largest contour, or null.
+const Body* other_solid_near(const Scene& s, const Tip& tip, Vec2 at) {
+  const double own = thickness_of(s, s.bodies[static_cast<size_t>(tip.body)]);
   int contour = s.fracture.contour;
   for (const FractureReading& r : s.readings)
     contour = std::max(contour, r.rules.contour);
   const int half = contour + 2;  // cells, half a cell from point to point
   for (int j = -half; j <= half; ++j)
     for (int i = -half; i <= half; ++i)
-      if (const int body = body_at(s, at + (0.5 * s.cell) * Vec2{double(i), double(j)}); body >= 0)
-        if (const int material = s.bodies[static_cast<size_t>(body)].material; material != tip.material)
-          return material;
-  return -1;
+      if (const int k = body_at(s, at + (0.5 * s.cell) * Vec2{double(i), double(j)}); k >= 0)
+        if (const Body& b = s.bodies[static_cast<size_t>(k)]; b.material != tip.material || thickness_of(s, b) != own)
+          return &b;
+  return nullptr;
 }
 
 void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
-  if (s.materials.size() < 2)
+  if (s.bodies.size() < 2)
     return;
   for (const Tip& tip : make_tips(s)) {
     const CrackLine& crack = s.cracks[static_cast<size_t>(tip.crack)];
-    const int other = other_material_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
-    if (other >= 0)
+    const char* const end = tip.last ? "last" : "first";
+    const Body* const other = other_solid_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
+    if (other && other->material != tip.material)
       list.push_back({place(s, "crack " + crack.name),
                       fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",
-                                  tip.last ? "last" : "first", s.materials[static_cast<size_t>(other)].name,
+                                  end, s.materials[static_cast<size_t>(other->material)].name,
                                   s.materials[static_cast<size_t>(tip.material)].name),
                       "try a smaller contour or smaller cells; J holds where the two meet along the crack's line"});
+    else if (other)
+      list.push_back(
+          {place(s, "crack " + crack.name),
+           fmt::format("the J contour of the {} tip takes in body {}, which has another thickness: J is then "
+                       "not that of the tip",
+                       end, other->name),
+           "try a smaller contour or smaller cells"});
   }
 }
 

@@ -17,7 +17,7 @@ struct FractureReport {
   long crossed = 0;  ///< evaluations with another crack in the domain
   long bent = 0;     ///< a bend that is sharp, or has faces pressed together behind it, was too near for a contour that
                      ///< leaves it out
-  long mixed = 0;    ///< a tip grew to where its contour takes in another material
+  long mixed = 0;    ///< a tip grew to where its contour takes in another material or thickness
   Vec2 place[5];
 };
 

@@ -46,7 +46,7 @@ class Growth {
     take_mean();
     const long interval = check_interval(particle_, limit_, s_.clock.dt);
     const long alone = steps_alone();
-    tip_.due = s_.clock.step + (tip_.running ? interval : std::max(interval, alone));
+    tip_.due = s_.clock.step + (tip_.running ? interval : std::max(at_wave_speed(), alone));
     const std::optional<Vec2> way = next_way();
     Tip* const other = way || tip_.running ? facing_tip() : nullptr;
     if (other)
@@ -65,7 +65,7 @@ class Growth {
     book(segment);
     tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
     tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
-    look_for_materials(to);
+    look_for_other_solids(to);
   }
 
  private:
@@ -195,6 +195,12 @@ class Growth {
   }
 
   /// Steps for which the tip, if it rests, is left alone, by what its load has done since the last check.
+  /// Steps between the checks of a tip that might run as fast as waves: where it starts is no matter of its own limit.
+  long at_wave_speed() const {
+    const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip_.material)], scene_.plane);
+    return check_interval(particle_, std::max(limit_, wave), s_.clock.dt);
+  }
+
   long steps_alone() {
     const double load = tip_.sound ? growth_load(*rule_, tip_) : tip_.load;
     const long steps = s_.clock.step - tip_.checked;
@@ -218,13 +224,15 @@ class Growth {
     }
   }
 
-  /// Counts a tip that has come so near to another material that its contour takes some of it in.
-  void look_for_materials(Vec2 x) {
-    if (scene_.materials.size() < 2)
+  /// Counts a tip that has come so near to another material or thickness that its contour takes some of it in.
+  void look_for_other_solids(Vec2 x) {
+    if (scene_.bodies.size() < 2)
       return;
     bool mixed = false;
-    each_particle_near(s_, x, 0.5 * scene_.fracture.contour * scene_.cell,
-                       [&](int k) { mixed |= scene_.bodies[s_.particles.body[k]].material != tip_.material; });
+    each_particle_near(s_, x, 0.5 * scene_.fracture.contour * scene_.cell, [&](int k) {
+      const int body = s_.particles.body[k];
+      mixed |= scene_.bodies[static_cast<size_t>(body)].material != tip_.material || s_.thickness[body] != thickness_;
+    });
     if (mixed && report_.mixed++ == 0)
       report_.place[4] = x;
   }

@@ -174,6 +174,17 @@ TEST(Doubts, NameTheSmallestContour) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameTipsBesideAnotherThickness) {
+  Scene s = sound_scene();
+  s.bodies[0].region = Rectangle{{0, 0}, {14.5e-3, 40e-3}};
+  s.bodies.push_back(s.bodies[0]);
+  s.bodies[1].name = "rib";
+  s.bodies[1].region = Rectangle{{14.5e-3, 0}, {40e-3, 40e-3}};
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[1].thickness = 3 * s.thickness;
+  expect_doubt(s, "crack edge", "takes in body rib");
+}
+
 /// Glass begins 2.5 cells ahead of the tip, and 4 cells.
 TEST(Doubts, NameTipsBesideAnotherMaterial) {
   for (const double begins : {14.5e-3, 16e-3}) {

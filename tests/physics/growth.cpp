@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tests/physics/scene_gates.hpp"
+#include "tests/physics/scenes.hpp"
 #include "tests/physics/strip.hpp"
 #include "tests/spaces.hpp"
 
@@ -19,6 +21,27 @@ Scene strip(GrowthCriterion criterion) {
   if (criterion == GrowthCriterion::k_max)
     s.growth->toughness = std::sqrt(toughness * Strip::E);
   return s;
+}
+
+// How fast a crack may run says nothing of when it starts: at 1 m/s a particle takes as long as the whole run.
+TEST(CrackGrowth, StartsAtItsToughnessWhateverItsSpeedLimit) {
+  const ChosenSpace space;
+  double start[2] = {};
+  for (const bool slow : {false, true}) {
+    Scene s = pulled_plate(crack("edge", {{-22e-3, 0}, {-8e-3, 0}}), 4);
+    s.order = 2;
+    s.growth = GrowthRule{};
+    s.growth->toughness = 0.2e6;
+    s.growth->speed_limit = slow ? 1 : 0;
+    Simulation m(s, space);
+    while (!m.finished() && m.state.events.empty())
+      m.step();
+    ASSERT_FALSE(m.state.events.empty());
+    start[slow] = m.state.events[0].time;
+  }
+  gates::report("start of a crack that may run at 1 m/s over that of one as fast as waves, less 1",
+                start[1] / start[0] - 1, "1e-9");
+  EXPECT_NEAR(start[1] / start[0], 1, 1e-9);
 }
 
 TEST(CrackGrowth, StartsWhenTheStripAheadReleasesEnough) {
