@@ -5,10 +5,10 @@
 #include "core/exec/parallel.hpp"
 #include "core/math/shape.hpp"
 #include "kernels/advance_grid.hpp"
-#include "kernels/block.hpp"
 #include "kernels/crack_view.hpp"
 #include "kernels/face_forces.hpp"
 #include "kernels/point_motion.hpp"
+#include "kernels/scatter.hpp"
 
 namespace riven {
 

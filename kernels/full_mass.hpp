@@ -6,7 +6,7 @@
 //   of (i, j) with (i-2 .. i+2, j), (i-2 .. i+2, j+1) and (i-2 .. i+2, j+2).
 #pragma once
 #include "core/math/quad.hpp"
-#include "kernels/block.hpp"
+#include "kernels/scatter.hpp"
 
 namespace riven {
 
@@ -23,22 +23,36 @@ struct FullMass {
   /// Where the entry of the node `across` columns and `up` rows on stands.
   static RIVEN_INLINE constexpr int entry(int across, int up) { return 5 * up + 2 + across; }
 
-  /// Adds a particle. Factors come in the same order for both nodes of a pair: the sums are symmetric to the bit. Three
-  /// columns are taken as four, the last with nothing added.
-  template <class Shape>
-  RIVEN_INLINE void add(const Block<Real, Shape>& w, int k, Real mass) const {
+  /// Adds `Count` particles that have the same nodes, from lane k on. Factors come in the same order for both nodes of
+  /// a pair: the sums are symmetric to the bit. Three columns are taken as four, the last with nothing added.
+  template <int Count, class Shape>
+  RIVEN_INLINE void add(const Block<Real, Shape>& w, int k, const Real* mass) const {
     constexpr int N = Shape::width;
-    const Quad<Real> columns{w.sx[0][k], w.sx[1][k], N > 2 ? w.sx[N - 1][k] : Real(0), Real(0)};
-    Real* row = entries + long{size} * (static_cast<long>(w.iy[k]) * nx + w.ix[k]);
+    Real rows[N][N][Count];
 #pragma GCC unroll 3
-    for (int j = 0; j < N; ++j, row += long{size} * nx)
+    for (int j = 0; j < N; ++j)
 #pragma GCC unroll 3
-      for (int i = 0; i < N; ++i) {
-        const Quad<Real> pairs = w.sx[i][k] * columns;
+      for (int up = 0; up + j < N; ++up)
+        for (int p = 0; p < Count; ++p)
+          rows[j][up][p] = mass[p] * (w.sy[j][k + p] * w.sy[j + up][k + p]);
+    Real* const corner = entries + long{size} * (static_cast<long>(w.iy[k]) * nx + w.ix[k]);
 #pragma GCC unroll 3
-        for (int up = 0; up + j < N; ++up)
-          add_group(row + size * i + entry(-i, up), mass * (w.sy[j][k] * w.sy[j + up][k]) * pairs);
-      }
+    for (int i = 0; i < N; ++i) {
+      Quad<Real> pairs[Count];
+#pragma GCC unroll 4
+      for (int p = 0; p < Count; ++p)
+        pairs[p] = w.sx[i][k + p] * w.columns(k + p);
+#pragma GCC unroll 3
+      for (int j = 0; j < N; ++j)
+#pragma GCC unroll 3
+        for (int up = 0; up + j < N; ++up) {
+          Quad<Real> sum = rows[j][up][0] * pairs[0];
+#pragma GCC unroll 3
+          for (int p = 1; p < Count; ++p)
+            sum += rows[j][up][p] * pairs[p];
+          add_group(corner + long{size} * (long{j} * nx + i) + entry(-i, up), sum);
+        }
+    }
   }
 
   /// sum_j M_nj v_j for groups of four node values; `n` lies two rows and columns inside of the lattice.

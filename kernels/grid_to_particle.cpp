@@ -177,11 +177,12 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, false, true, false> see(s.watch, rule.keep != 1, n.compare);
+  const bool together = in_cells(s);
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
-      [p, at, extra, q, high, again, nx, n] RIVEN_KERNEL(auto stretch, long begin, long end, const NodeTarget<Real>& to,
-                                                         TileWatch<Real>& seen) RIVEN_LANE {
+      [p, at, extra, q, high, again, nx, n, together] RIVEN_KERNEL(
+          auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         MotionLanes<Real> motion;
         GradientLanes<Real> none;
@@ -193,15 +194,24 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
             gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
           });
           update_velocity(p, first, count, motion, n, seen);
-          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-            const long i = first + k;
-            const Quad<Real> A{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)}, zero{};
-            if constexpr (std::is_pointer_v<decltype(slots)>)
-              scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra, static_cast<Real*>(nullptr),
-                                          again);
-            else
-              scatter<false, false>(w, k, Real(0), A, zero, zero, to);
-          });
+          const auto momentum = [&](long i) RIVEN_LANE {
+            return Quad<Real>{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)};
+          };
+          each_four(
+              stretch, w, first, count, together,
+              [&](int k, auto slots) RIVEN_LANE {
+                const Quad<Real> A = momentum(first + k), zero{};
+                if constexpr (std::is_pointer_v<decltype(slots)>)
+                  scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra,
+                                              static_cast<Real*>(nullptr), again);
+                else
+                  scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+              },
+              [&](int k) RIVEN_LANE {
+                const long i = first + k;
+                const Quad<Real> A[4]{momentum(i), momentum(i + 1), momentum(i + 2), momentum(i + 3)};
+                scatter_four<false>(w, k, static_cast<const Real*>(nullptr), A, to);
+              });
         }
       });
   watch_velocities(s);

@@ -6,6 +6,7 @@
 #include "kernels/advance_grid.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/full_mass.hpp"
+#include "kernels/gather.hpp"
 #include "kernels/prescribe_velocities.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/views.hpp"
@@ -27,10 +28,11 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
   const Real* mass = exec::data(std::as_const(s.particles.mass));
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
+  const bool together = in_cells(s);
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{at.x, at.y}, {mass}, {term, next}}};
   scatter_tiles<false>(space, "higher orders", plan.scatter, tiles, static_cast<Real*>(nullptr), next, WatchNothing{},
-                       [at, extra, mass, term, next, nx] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                      const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                       [at, extra, mass, term, next, nx, together] RIVEN_KERNEL(
+                           auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                          if constexpr (OnlyCrossing && !decltype(stretch)::value)
                            return;
                          Block<Real, Shape> w;
@@ -38,18 +40,28 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            ask_ahead(stretch, first);
                            w.weigh(at, first);
-                           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                           const auto momentum = [&](int k, auto slots) RIVEN_LANE {
+                             return mass[first + k] * gather_from<false>(w, k, term, nx, slots).value;
+                           };
+                           const auto one = [&](int k, auto slots) RIVEN_LANE {
                              constexpr bool crosses = std::is_pointer_v<decltype(slots)>;
                              if constexpr (OnlyCrossing && !crosses)
                                return;
-                             const Quad<Real> v = gather_from<false>(w, k, term, nx, slots).value;
-                             const Quad<Real> mv = mass[first + k] * v, zero{};
+                             const Quad<Real> mv = momentum(k, slots), zero{};
                              if constexpr (crosses)
                                scatter_slots<false, false>(w, k, Real(0), mv, zero, zero, to, slots, extra,
                                                            static_cast<Real*>(nullptr), next);
                              else
                                scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
-                           });
+                           };
+                           if constexpr (OnlyCrossing)
+                             each_particle<Shape>(stretch, first, count, one);
+                           else
+                             each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
+                               const Quad<Real> mv[4]{momentum(k, nullptr), momentum(k + 1, nullptr),
+                                                      momentum(k + 2, nullptr), momentum(k + 3, nullptr)};
+                               scatter_four<false>(w, k, static_cast<const Real*>(nullptr), mv, to);
+                             });
                          }
                        });
 }
@@ -62,19 +74,23 @@ void build_full_mass(const exec::Space& space, State<Real, 2>& s) {
   const FullMass<Real> full{exec::data(s.grid.full_mass), s.grid.lattice.nx};
   const Real* mass = exec::data(std::as_const(s.particles.mass));
   const Positions<Real> at = positions(s);
+  const bool together = in_cells(s);
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, crossing_slots(s), {{at.x, at.y}, {mass}, {}}};
   scatter_tiles<false>(
       space, "full mass", ScatterKind::ordered, tiles, static_cast<Real*>(nullptr), full.entries, WatchNothing{},
-      [at, full, mass] RIVEN_KERNEL(auto stretch, long begin, long end, const auto&, auto&) RIVEN_LANE {
+      [at, full, mass, together] RIVEN_KERNEL(auto stretch, long begin, long end, const auto&, auto&) RIVEN_LANE {
         Block<Real, Shape> w;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
           w.weigh(at, first);
-          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-            if constexpr (!std::is_pointer_v<decltype(slots)>)
-              full.add(w, k, mass[first + k]);
-          });
+          each_four(
+              stretch, w, first, count, together,
+              [&](int k, auto slots) RIVEN_LANE {
+                if constexpr (!std::is_pointer_v<decltype(slots)>)
+                  full.template add<1>(w, k, mass + first + k);
+              },
+              [&](int k) RIVEN_LANE { full.template add<4>(w, k, mass + first + k); });
         }
       });
 }

@@ -5,6 +5,7 @@
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "kernels/field_slots.hpp"
+#include "kernels/gather.hpp"
 #include "kernels/j_integral.hpp"
 #include "kernels/views.hpp"
 

@@ -28,10 +28,11 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
        {p.vx, p.vy, p.mass, Forces ? p.sxx : nullptr, Forces ? p.syy : nullptr, Forces ? p.sxy : nullptr},
        {q},
        mass}};
+  const bool together = in_cells(s);
   const Real bx = Real(gravity.x), by = Real(gravity.y);
   scatter_tiles<true>(space, "particle to grid", plan.scatter, tiles, mass, q, WatchNothing{},
-                      [p, at, extra, mass, q, bx, by] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                   const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                      [p, at, extra, mass, q, bx, by, together] RIVEN_KERNEL(
+                          auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
                         Block<Real, Shape> w;
                         alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
                         for (long first = begin; first < end; first += L) {
@@ -48,7 +49,7 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               txy[k] = -m[k] * p.sxy[first + k];
                             }
                           });
-                          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                          const auto one = [&](int k, auto slots) RIVEN_LANE {
                             Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
                             if constexpr (Forces) {
                               A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
@@ -59,7 +60,16 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               scatter_slots<true, Forces>(w, k, m[k], A, B, C, to, slots, extra, mass, q);
                             else
                               scatter<true, Forces>(w, k, m[k], A, B, C, to);
-                          });
+                          };
+                          if constexpr (Forces)
+                            each_particle<Shape>(stretch, first, count, one);
+                          else
+                            each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
+                              Quad<Real> A[4];
+                              for (int p = 0; p < 4; ++p)
+                                A[p] = Quad<Real>{px[k + p], py[k + p], Real(0), Real(0)};
+                              scatter_four<true>(w, k, m + k, A, to);
+                            });
                         }
                       });
 }

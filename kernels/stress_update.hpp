@@ -8,6 +8,7 @@
 // shrinks against the one that moves by |A|^2 / 2 in every step: a disk would grow by 2 % in a turn of 1,000 steps, and
 // gain as much angular momentum.
 #pragma once
+#include "kernels/gather.hpp"
 #include "kernels/views.hpp"
 #include "kernels/watch.hpp"
 

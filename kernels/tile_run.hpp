@@ -1,7 +1,7 @@
 // The tiles that a kernel runs over, and what it reads of them.
 #pragma once
 #include "core/state/particles.hpp"
-#include "kernels/block.hpp"
+#include "kernels/scatter.hpp"
 #include "kernels/tile_reads.hpp"
 
 namespace riven {

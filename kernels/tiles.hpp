@@ -13,6 +13,9 @@
 //   each_particle<Shape>(stretch, first, count, f)   f(k, slots) for the particles of a block: where all nodes of a
 //       particle stand that sees one of them across a crack, else a null pointer by its type, so that the loop is
 //       compiled without the way out to the others.
+//   each_four(stretch, w, first, count, in_cells, f, four)   on the host four(k) for lanes k .. k + 3 of the block w
+//       where they have the same nodes, none of them across a crack; f(k, slots) as above for all others, and for all
+//       where particles are no longer in the cells that they were sorted by (in_cells, views.hpp).
 //
 // The kinds of scatter are
 //

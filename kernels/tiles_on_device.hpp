@@ -32,6 +32,12 @@ RIVEN_INLINE void each_particle(const Stretch& stretch, long, int, const Body& b
     body(0, nullptr);
 }
 
+template <class Real, class Shape, class Stretch, class One, class Four>
+RIVEN_INLINE void each_four(const Stretch& stretch, const Block<Real, Shape>&, long first, int count, bool,
+                            const One& one, const Four&) {
+  each_particle<Shape>(stretch, first, count, one);
+}
+
 template <class Stretch>
 RIVEN_INLINE void ask_ahead(const Stretch&, long) {}
 

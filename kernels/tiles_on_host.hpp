@@ -50,6 +50,34 @@ RIVEN_INLINE void each_particle(const Stretch& stretch, long first, int count, c
   }
 }
 
+template <class Real, class Shape, class Stretch, class One, class Four>
+RIVEN_INLINE void each_four(const Stretch& stretch, const Block<Real, Shape>& w, long first, int count, bool in_cells,
+                            const One& one, const Four& four) {
+  if (!in_cells)
+    return each_particle<Shape>(stretch, first, count, one);
+  unsigned crossing = 0;
+  const int* slots = nullptr;
+  if constexpr (Stretch::value) {
+    const long block = (first - stretch.begin) / exec::lanes;
+    crossing = stretch.crossing[block];
+    slots = stretch.slots + stretch.block_slots[block];
+  }
+  for (int k = 0; k < count;) {
+    if (k + 4 <= count && (crossing >> k & 15u) == 0 && w.four_together(k)) {
+      four(k);
+      k += 4;
+      continue;
+    }
+    if constexpr (Stretch::value)
+      if (crossing >> k & 1u) {
+        one(k++, slots);
+        slots += Shape::width * Shape::width;
+        continue;
+      }
+    one(k++, nullptr);
+  }
+}
+
 template <class Stretch>
 RIVEN_INLINE void ask_ahead(const Stretch& stretch, long first) {
   if (stretch.ahead)

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "core/state/state.hpp"
-#include "kernels/block.hpp"
+#include "kernels/scatter.hpp"
 
 namespace riven {
 
@@ -54,6 +54,13 @@ Positions<Real> positions(const State<Real, 2>& s) {
           l.origin.y,
           1 / l.h,
           {exec::data(s.domains), exec::data(s.particles.body), s.domains.size() == 1}};
+}
+
+/// Whether particles that follow each other still have the same nodes by four: most are in the middle of the cell that
+/// they were sorted by, a quarter of it from its edges.
+template <class Real>
+bool in_cells(const State<Real, 2>& s) {
+  return s.watch.drift < 0.25 * s.grid.lattice.h;
 }
 
 /// `shared`: several tiles may write to a slot at once.

@@ -195,6 +195,33 @@ TEST(Transfers, FollowTheirMatrixFormulas) {
       }
 }
 
+/// Particles of one cell are taken by four as long as they are in the cells that they were sorted by, and one by one
+/// when they have drifted: the same sums, in another order.
+TEST(Transfers, AreTheSameOneByOneAndByFour) {
+  const test::ChosenSpace space;
+  const auto after_two_steps = [&](const Scene& s, double drift) {
+    Simulation m(s, space);
+    auto& p = m.state.particles;
+    for (int i = 0; i < p.count(); ++i)
+      for (int axis : {0, 1})
+        p.v[axis][i] = std::sin(7.3 * p.id[i] + axis);
+    m.step();
+    m.state.watch.drift = drift;
+    m.step();
+    return velocities(m);
+  };
+  for (const ShapeFunction shape : shapes)
+    for (const StressUpdate update : {StressUpdate::usl, StressUpdate::usf, StressUpdate::musl, StressUpdate::usavg})
+      for (const int order : {0, 2, 4}) {
+        Scene s = block_scene(shape, order == 0 ? Transfer::flip : Transfer::fmpm, std::max(1, order));
+        s.stress_update = update;
+        const Column four = after_two_steps(s, 0), one = after_two_steps(s, 0.3 * s.cell);
+        EXPECT_LT(apart(four, one), 1e-13 * largest(one)) << name_of(shape) << " " << name_of(update) << " " << order;
+        if (update == StressUpdate::usavg)
+          EXPECT_GT(apart(four, one), 0) << "not taken by four";
+      }
+}
+
 /// A solid on a crack that runs through moves as if there were none on the other side, in every order.
 TEST(Transfers, KeepToTheirSideOfACrack) {
   const test::ChosenSpace space;
