@@ -217,8 +217,9 @@ TEST(Transfers, AreTheSameOneByOneAndByFour) {
         s.stress_update = update;
         const Column four = after_two_steps(s, 0), one = after_two_steps(s, 0.3 * s.cell);
         EXPECT_LT(apart(four, one), 1e-13 * largest(one)) << name_of(shape) << " " << name_of(update) << " " << order;
-        if (update == StressUpdate::usavg)
+        if (update == StressUpdate::usavg) {
           EXPECT_GT(apart(four, one), 0) << "not taken by four";
+        }
       }
 }
 
