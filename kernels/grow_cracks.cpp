@@ -35,8 +35,9 @@ class Growth {
     rule_ = growth_rule(scene_, tip.crack);
     particle_ = scene_.cell / body.particles_per_cell;
     thickness_ = s_.thickness[tip.body];
-    limit_ = rule_->speed_limit > 0 ? rule_->speed_limit
-                                    : rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
+    const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
+    limit_ = rule_->speed_limit > 0 ? rule_->speed_limit : wave;
+    start_limit_ = std::max(limit_, wave);
     now_ = s_.clock.time + s_.clock.dt;
     x_ = s_.cracks.plane[s_.cracks.end_point(tip.crack, tip.last)];
     ahead_ = direction(tip);
@@ -44,9 +45,10 @@ class Growth {
 
   void check() {
     take_mean();
-    const long interval = check_interval(particle_, limit_, s_.clock.dt);
+    // how fast a tip may run says nothing of when it starts
+    const long interval = check_interval(particle_, tip_.running ? limit_ : start_limit_, s_.clock.dt);
     const long alone = steps_alone();
-    tip_.due = s_.clock.step + (tip_.running ? interval : std::max(at_wave_speed(), alone));
+    tip_.due = s_.clock.step + (tip_.running ? interval : std::max(interval, alone));
     const std::optional<Vec2> way = next_way();
     Tip* const other = way || tip_.running ? facing_tip() : nullptr;
     if (other)
@@ -195,12 +197,6 @@ class Growth {
   }
 
   /// Steps for which the tip, if it rests, is left alone, by what its load has done since the last check.
-  /// Steps between the checks of a tip that might run as fast as waves: where it starts is no matter of its own limit.
-  long at_wave_speed() const {
-    const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip_.material)], scene_.plane);
-    return check_interval(particle_, std::max(limit_, wave), s_.clock.dt);
-  }
-
   long steps_alone() {
     const double load = tip_.sound ? growth_load(*rule_, tip_) : tip_.load;
     const long steps = s_.clock.step - tip_.checked;
@@ -293,8 +289,9 @@ class Growth {
   Tip& tip_;
   const std::vector<Rectangle>& boxes_;
   const GrowthRule* rule_;
-  double particle_, thickness_, limit_;
-  double now_;  ///< at the end of this step
+  double particle_, thickness_;
+  double limit_, start_limit_;  ///< m/s, of a tip that runs, and of what one at rest may have come to
+  double now_;                  ///< at the end of this step
   Vec2 x_, ahead_;
 };
 
