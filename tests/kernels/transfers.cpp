@@ -195,16 +195,21 @@ TEST(Transfers, FollowTheirMatrixFormulas) {
       }
 }
 
+/// Each particle one of its own.
+void give_velocities(Simulation& m) {
+  auto& p = m.state.particles;
+  for (int i = 0; i < p.count(); ++i)
+    for (int axis : {0, 1})
+      p.v[axis][i] = std::sin(7.3 * p.id[i] + axis);
+}
+
 /// Particles of one cell are taken by four as long as they are in the cells that they were sorted by, and one by one
-/// when they have drifted: the same sums, in another order.
+/// when they have drifted: the same sums, in another order. A device always takes them one by one.
 TEST(Transfers, AreTheSameOneByOneAndByFour) {
   const test::ChosenSpace space;
   const auto after_two_steps = [&](const Scene& s, double drift) {
     Simulation m(s, space);
-    auto& p = m.state.particles;
-    for (int i = 0; i < p.count(); ++i)
-      for (int axis : {0, 1})
-        p.v[axis][i] = std::sin(7.3 * p.id[i] + axis);
+    give_velocities(m);
     m.step();
     m.state.watch.drift = drift;
     m.step();
@@ -217,7 +222,7 @@ TEST(Transfers, AreTheSameOneByOneAndByFour) {
         s.stress_update = update;
         const Column four = after_two_steps(s, 0), one = after_two_steps(s, 0.3 * s.cell);
         EXPECT_LT(apart(four, one), 1e-13 * largest(one)) << name_of(shape) << " " << name_of(update) << " " << order;
-        if (update == StressUpdate::usavg) {
+        if (update == StressUpdate::usavg && space.kind() != exec::Kind::cuda) {
           EXPECT_GT(apart(four, one), 0) << "not taken by four";
         }
       }
@@ -228,10 +233,7 @@ TEST(Transfers, KeepToTheirSideOfACrack) {
   const test::ChosenSpace space;
   const auto after_a_step = [&](const Scene& s) {
     Simulation m(s, space);
-    auto& p = m.state.particles;
-    for (int i = 0; i < p.count(); ++i)
-      for (int axis : {0, 1})
-        p.v[axis][i] = std::sin(7.3 * p.id[i] + axis);
+    give_velocities(m);
     m.step();
     return velocities(m);
   };
