@@ -15,11 +15,12 @@
 namespace riven {
 
 /// What is asked for on a face, and where in FaceValues it begins.
-inline constexpr int face_stress = 0;                  ///< [xx yy xy], Pa
-inline constexpr int face_kinetic = 3;                 ///< kinetic energy per first volume, Pa, where it counts
-inline constexpr int face_energy = 4;                  ///< with the strain energy, Pa
-inline constexpr int face_eshelby = 5;                 ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
-inline constexpr int face_cheap = 4, face_values = 9;  ///< how many need no strain energy, and in all
+inline constexpr int face_stress = 0;                   ///< [xx yy xy], Pa
+inline constexpr int face_kinetic = 3;                  ///< kinetic energy per first volume, Pa, where it counts
+inline constexpr int face_rotation = 4;                 ///< against that of the tip
+inline constexpr int face_energy = 5;                   ///< kinetic with the strain energy, Pa
+inline constexpr int face_eshelby = 6;                  ///< Eshelby's tensor [11 12 21 22], rows K, columns j, Pa
+inline constexpr int face_cheap = 5, face_values = 10;  ///< how many need no strain energy, and in all
 using FaceValues = std::array<double, face_values>;
 
 /// Sums for the fits of one velocity field of one node, for its first values; offsets are from the node, in cells.

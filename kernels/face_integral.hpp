@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "kernels/face_fields.hpp"
+#include "kernels/known_on_faces.hpp"
 #include "kernels/own_faces.hpp"
 
 namespace riven {
@@ -34,7 +35,8 @@ class FaceIntegral {
         h_(s.grid.lattice.h),
         task_(task),
         fields_(s, view, task),
-        own_(s.cracks, view, segments, task) {}
+        own_(s.cracks, view, segments, task),
+        known_(s.cracks, own_, task) {}
 
   void add() {
     // half a cell more, as B-splines count cells from mid-cell to mid-cell; behind the tip its own faces are looked at
@@ -52,24 +54,21 @@ class FaceIntegral {
     for (const SegmentsByCell::Entry& e : lists.own)
       own_.find_cut(e.segment, e.cell);
     for (const Segment& s : lists.segments)
-      if (s.turn > bent)
+      if (is_bent(s) || s.crack != task_.crack)
         fields_.ask_for_energies();
     for (const Segment& s : lists.segments) {
       if (s.crack == task_.crack)
         add_own(s);
       else if (task_.other_faces)
-        add_faces(s, meet(s, touching));
+        add_other(s);
+      else
+        see(false);
     }
     note_bends(lists.segments);
   }
 
  private:
-  struct Segment {
-    int k, crack;
-    Vec2 middle, normal;  ///< normal of unit length, towards above
-    double length, q;
-    double turn;  ///< sine of the angle to the tip's heading; 2 for another crack
-  };
+  using Segment = FaceSegment;
 
   /// Kept by its thread from tip to tip.
   struct Lists {
@@ -102,15 +101,25 @@ class FaceIntegral {
     if (loaded)
       own_.add_tractions(s.k, s.q);
     const bool off_line = is_bent(s);
-    task_.sums.bent = task_.sums.bent || off_line;
     // tractions of laws are counted already, however little the faces have opened
     const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
+    see(!off_line || (task_.cut && !loaded && !meeting.holds));
     if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
       add_faces(s, off_line ? meeting : Meeting{});
   }
+
+  /// Where the tip's own crack ends within the domain the known fields are torn in the solid: a mouth is no matter,
+  /// another crack is.
+  void add_other(const Segment& s) {
+    see(task_.passes && !own_.bears(s.k));
+    add_faces(s, meet(s, touching));
+  }
+
+  /// Notes whether the interaction integral can follow.
+  void see(bool follows) { task_.sums.blind = task_.sums.blind || !follows; }
 
   /// Notes bends that the contour is to leave out: those with faces that are pressed together before the bend or next
   /// behind it, in the domain or beyond, and those so sharp that no grid resolves the energies around them. Where the
@@ -131,7 +140,7 @@ class FaceIntegral {
         task_.sums.bends.push_back(view_.plane[s.k + int{task_.last}]);
   }
 
-  bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > bent; }
+  bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > BranchCut::bent; }
 
   /// Does the crack turn sharply between this segment and the next one towards the tip, where it was drawn? What has
   /// grown is next to the tip, and J of what drives it would be that of the least contour.
@@ -245,30 +254,36 @@ class FaceIntegral {
         const double* E = meeting.face[side == Side::below].data() + face_eshelby;
         const Vec2 n = (out * s.length) * s.normal, released{E[0] * n.x + E[1] * n.y, E[2] * n.x + E[3] * n.y};
         task_.sums.faces += own_meet ? dot(released, s.normal) * s.normal : released;
-      } else if (const auto energy = s.crack == task_.crack ? own_energy(s, side) : energy_beside(s, side)) {
-        task_.sums.faces += (out * *energy) * turned(first);
+        if (!own_meet)
+          known_.add_beside(s, side, meeting.face[side == Side::below], false);
+      } else if (s.crack == task_.crack) {
+        if (const auto face = own_face(s, side)) {
+          task_.sums.faces += (out * face->energy(task_.solid->E)) * turned(first);
+          known_.add_own(s, side, *face);
+        }
+      } else if (const auto face = beside(s, side)) {
+        // carried on past a corner, where it ends, it could become negative
+        task_.sums.faces += (out * std::max(0.0, (*face)[face_energy])) * turned(first);
+        known_.add_beside(s, side, *face, true);
       }
     }
   }
 
-  /// Energy next to an open face, per first volume; none where no particle tells.
-  std::optional<double> energy_beside(const Segment& s, Side side) {
+  /// Values next to an open face; none where no particle tells.
+  std::optional<FaceValues> beside(const Segment& s, Side side) {
     FaceValues face;
     if (!fields_.at(middle_of_face(s.k, side), s.crack, s.middle, s.normal, side, face))
       return std::nullopt;
-    return std::max(0.0, face[face_energy]);  // carried on past a corner, where it ends, it could become negative
+    return face;
   }
 
-  /// That next to a face of the tip's own crack: kinetic, and of the tension t along it, which is all that the solid
-  /// bears there, t^2 / 2E.
-  std::optional<double> own_energy(const Segment& s, Side side) {
+  /// On a face of the tip's own crack: the tension along it is all that the solid bears there.
+  std::optional<FreeFace> own_face(const Segment& s, Side side) {
     const Segment at = clear_of_tip(s, disturbed);
     FaceValues face;
     if (!fields_.at(middle_of_face(at.k, side), at.crack, at.middle, at.normal, side, face))
       return std::nullopt;
-    const double *stress = face.data() + face_stress, x = at.normal.x, y = at.normal.y;
-    const double tension = stress[0] * y * y + stress[1] * x * x - 2 * stress[2] * x * y;
-    return std::max(0.0, face[face_kinetic]) + tension * tension / (2 * task_.solid->E);
+    return FreeFace{face[face_kinetic], FaceStress(face, at.normal).along, face[face_rotation]};
   }
 
   /// Has contact acted on one of the four nodes around a place?
@@ -294,7 +309,6 @@ class FaceIntegral {
   /// 0.1 % to J of a crack ten cells long where they lie at that angle and the solid on one side is free of stress;
   /// with 1e-3 J of ten cracks in a plate differs by 6e-5 at most, and takes twice as long.
   static constexpr double straight = 1e-2;
-  static constexpr double bent = 0.2;    ///< and from which on the crack is bent for the interaction integral
   static constexpr double sharp = 0.26;  ///< cosine of the angle between segments of a sharp bend, 75 degrees: J is 13
                                          ///< % low at 70, 30 at 80
   static constexpr double torn = 2;      ///< length of a segment over its first one from which it spans an opening
@@ -313,6 +327,7 @@ class FaceIntegral {
   TipTask& task_;
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;
+  KnownOnFaces known_;
   std::optional<Meeting> near_tip_;  ///< once asked for
   bool shut_ = false;                ///< some faces of the tip's own crack are pressed together
 };

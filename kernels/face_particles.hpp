@@ -168,6 +168,7 @@ class FaceParticles {
       values_[face_stress + 1][k] = k < count ? density * state.yy : 0;
       values_[face_stress + 2][k] = k < count ? density * state.xy : 0;
       values_[face_kinetic][k] = k < count ? half * inv_first[k] * (vx * vx + vy * vy) : 0;
+      values_[face_rotation][k] = k < count ? task.rotation(state.F) : 0;
     }
   }
 

@@ -139,7 +139,7 @@ class JSearch {
       const StressIntensity M = interaction(d, task);
       tip.M_I = M.I;
       tip.M_II = M.II;
-      set_intensity(tip, solid, share_in_proportion(solid, tip.J, speed_of(tip), M), at_rest(task, M));
+      set_intensity(tip, solid, sized(tip, task, M), at_rest(task, M));
     } else {
       tip.M_I = tip.M_II = none;
       set_intensity(tip, solid, by_opening, share_out(solid, tip.J, 0, opening));
@@ -161,7 +161,13 @@ class JSearch {
     return tip.speed > 0 ? std::min(tip.speed, 0.99 * rayleigh_speed(material, m_.scene.plane)) : 0;
   }
 
-  static bool usable(const TipTask& task) { return task.interaction && !task.sums.crossed && !task.sums.bent; }
+  static bool usable(const TipTask& task) { return task.interaction && !task.sums.blind; }
+
+  /// The intensities by the interaction integral with the size that J gives; at rest where the crack bends with their
+  /// own, as energies along faces next to a bend are steeper than the grid resolves.
+  StressIntensity sized(const Tip& tip, const TipTask& task, StressIntensity M) const {
+    return task.cut && !(tip.speed > 0) ? M : share_in_proportion(*task.solid, tip.J, speed_of(tip), M);
+  }
 
   static StressIntensity interaction(const DueTip& d, const TipTask& task) {
     const double of_all = task.solid->mu / d.acting;
@@ -181,7 +187,7 @@ class JSearch {
       return;
     Tip& tip = *d.tip;
     const StressIntensity M = interaction(d, task);
-    set_intensity(tip, *task.solid, share_in_proportion(*task.solid, tip.J, speed_of(tip), M), at_rest(task, M));
+    set_intensity(tip, *task.solid, sized(tip, task, M), at_rest(task, M));
   }
 
   SimulationOf<Real>& m_;

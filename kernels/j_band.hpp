@@ -18,6 +18,7 @@ struct Band {
   alignas(64) double energy[lanes];      ///< m^2/s^2, strain energy per mass, and kinetic where it counts
   alignas(64) double sxx[lanes], syy[lanes], sxy[lanes];  ///< m^2/s^2, Kirchhoff stress per mass
   alignas(64) double Fxx[lanes], Fxy[lanes], Fyx[lanes], Fyy[lanes];
+  alignas(64) double sign[lanes];  ///< of the known fields
 
   /// Takes `count` particles, up to as many as there are lanes; the numbers behind them are of particles too, which
   /// weigh nothing.
@@ -55,6 +56,7 @@ struct Band {
     const Vec2 t = task.heading, n = turned(t);
     const Vec2 t0{task.turn.x * t.x + task.turn.y * t.y, task.turn.x * t.y - task.turn.y * t.x};
     const double speed = task.running.speed;
+    take_signs(task);
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const Mat2<double> H = task.gradient(Mat2<double>{Fxx[k], Fxy[k], Fyx[k], Fyy[k]});
       const Vec2 ut{H.xx * t0.x + H.xy * t0.y, H.yx * t0.x + H.yy * t0.y};
@@ -70,7 +72,7 @@ struct Band {
         const double work = s11 * a.exx + s22 * a.eyy + 2 * s12 * a.exy + v1 * a.dux_dx + v2 * a.duy_dx;
         const double own = q1 * (s11 * a.dux_dx + s12 * a.duy_dx) + q2 * (s12 * a.dux_dx + s22 * a.duy_dx);
         const double other = q1 * (a.sxx * u1 + a.sxy * u2) + q2 * (a.sxy * u1 + a.syy * u2);
-        interaction[mode][k] += mass[k] * (own - work * q1) + first_area[k] * other;
+        interaction[mode][k] += sign[k] * (mass[k] * (own - work * q1) + first_area[k] * other);
       }
     });
   }
@@ -85,6 +87,14 @@ struct Band {
   }
 
  private:
+  void take_signs(const TipTask& task) {
+    const Vec2 t = task.heading;
+    for (int k = 0; k < lanes; ++k) {
+      const Vec2 r{rx[k], ry[k]};
+      sign[k] = task.cut ? task.cut->sign({dot(r, t), cross(t, r)}) : 1;
+    }
+  }
+
   template <class Law>
   struct Solid {
     Law law;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/exec/space.hpp"
+#include "core/fracture/branch_cut.hpp"
 #include "core/fracture/j_domain.hpp"
 #include "core/fracture/stress_intensity.hpp"
 #include "core/math/tensor.hpp"
@@ -36,14 +37,16 @@ struct TipSums {
   double whole = std::numeric_limits<double>::infinity();  ///< m, length of the crack's faces behind the tip that no
                                                            ///< other crack cuts, if that is known to be short
   bool crossed = false;                                    ///< another crack lies in the domain
-  bool bent = false;                                       ///< the crack itself is not in line with its tip there
+  bool blind = false;       ///< faces there bear what the interaction integral does not see, or it cannot follow them
   std::vector<Vec2> bends;  ///< of its points where it is not, those that the contour should leave out
 };
 
 /// A tip to sum around.
 struct TipTask {
   JDomain domain;
-  std::optional<JDomain> core;  ///< within the domain, where what inertia adds is left out
+  std::optional<JDomain> core;   ///< within the domain, where what inertia adds is left out
+  std::optional<BranchCut> cut;  ///< of the known fields, where the crack is not in line with its tip
+  bool passes = false;           ///< the crack passes out of the domain
   int crack = 0;
   bool last = true;         ///< which end of the crack it is
   double grown = 0;         ///< m, length by which the crack has grown there
@@ -60,6 +63,11 @@ struct TipTask {
 
   /// Share of v^2 / 2 in J.
   double kinetic() const { return running.speed > 0 ? 1 : 0; }
+  /// Half the difference of the off-diagonal parts of F R^T: by how much a place has turned more than the tip, by R.
+  template <class Real>
+  RIVEN_INLINE double rotation(const Mat2<Real>& F) const {
+    return 0.5 * ((F.yx - F.xy) * turn.x - (F.xx + F.yy) * turn.y);
+  }
   /// Displacement gradient F - R of what has turned by R with the tip.
   template <class Real>
   Mat2<double> gradient(const Mat2<Real>& F) const {

@@ -74,6 +74,17 @@ class OwnFaces {
   /// its second, per thickness.
   double work(int k, Vec2 traction) const { return dot(traction, opening_change(k)); }
 
+  /// Is another crack so near that it may cut a segment? Most are not, and the hash need not be looked at.
+  bool meets_other(int k) const {
+    const Vec2 a = view_.plane[k], b = view_.plane[k + 1], middle = 0.5 * (a + b);
+    const double own = (0.5 + at_end) * norm(b - a);
+    return std::any_of(others_.begin(), others_.end(), [&](const Other& o) {
+      const Vec2 r = o.middle - middle;
+      const double far = own + 0.5 * o.length;
+      return dot(r, r) <= 1.001 * far * far;
+    });
+  }
+
   /// Notes how far behind the tip another crack first cuts the faces.
   void find_cut(int k, int cell) {
     const Vec2 a = view_.plane[k], b = view_.plane[k + 1];
@@ -120,17 +131,6 @@ class OwnFaces {
     thread_local std::vector<Other> others;
     others.clear();
     return others;
-  }
-
-  /// Is another crack so near that it may cut a segment? Most are not, and the hash need not be looked at.
-  bool meets_other(int k) const {
-    const Vec2 a = view_.plane[k], b = view_.plane[k + 1], middle = 0.5 * (a + b);
-    const double own = (0.5 + at_end) * norm(b - a);
-    return std::any_of(others_.begin(), others_.end(), [&](const Other& o) {
-      const Vec2 r = o.middle - middle;
-      const double far = own + 0.5 * o.length;
-      return dot(r, r) <= 1.001 * far * far;
-    });
   }
 
   /// Which part of a segment comes before the place where another crack cuts it or one of its ends, or `uncut`. An end

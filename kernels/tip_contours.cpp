@@ -70,6 +70,12 @@ TipTask TipContours<Real>::place(DueTip& d) const {
   if (task.running.speed > 0)
     task.core = core_of(task.domain, core_of_running_tip * m_.scene.cell, m_.scene.cell);
   task.interaction = rules_.interaction;
+  if (task.interaction) {
+    task.passes = !(task.domain.weight(s_.cracks.plane[s_.cracks.end_point(tip.crack, !tip.last)] - at) > 0);
+    const JDomain& d = task.domain;
+    const double x = std::max(d.outer(right), d.outer(left)), y = std::max(d.outer(top), d.outer(bottom));
+    task.cut = BranchCut::along(s_.cracks, tip, task.heading, norm(Vec2{x, y}));
+  }
   return task;
 }
 

@@ -35,7 +35,7 @@ struct Tip {
   /// tip that runs these are the means
   double drive_I = 0, drive_II = 0;
   double release = 0;  ///< J/m^2, that go with them
-  /// Pa m^0.5, by the interaction integral; NaN where another crack or a bend is in the contour
+  /// Pa m^0.5, by the interaction integral; NaN where it cannot follow the faces in the contour
   double M_I = 0, M_II = 0;
   double reach[4] = {0, 0, 0, 0};  ///< cells from the tip to the contour: +x, +y, -x, -y
   bool adapted = false;            ///< the contour leaves out the tip of another crack, or a bend with pressed faces

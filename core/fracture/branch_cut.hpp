@@ -1,0 +1,81 @@
+// The branch cut of the known fields around a tip (auxiliary_fields.hpp), laid along the faces of a crack that bends.
+//
+// As written the fields have their cut along the straight line behind the tip. They go on beyond it as sqrt(z) does,
+// and solve the same equations there: where they have turned by a full circle they are what they were with the other
+// sign. So between that line and the crack the sign is turned round. The fields are smooth in all of the solid then,
+// and part where it does.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/math/vec.hpp"
+#include "core/state/cracks.hpp"
+#include "core/state/tips.hpp"
+
+namespace riven {
+
+class BranchCut {
+ public:
+  /// That of a tip whose crack, up to `far` (m) from it, is not in line with it; none where it is, or where it comes
+  /// back towards the tip, beside which no sign is known.
+  static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, double far) {
+    const int step = tip.last ? -1 : 1, other = cracks.end_point(tip.crack, !tip.last);
+    const int end = cracks.end_point(tip.crack, tip.last);
+    const Vec2 x = cracks.plane[end];
+    bool bends = false;
+    double distance = 0;
+    int k = end;
+    while (k != other && distance < far * far) {
+      const Vec2 segment = cracks.plane[k] - cracks.plane[k + step], r = cracks.plane[k + step] - x;
+      const double before = distance, off = cross(segment, heading);
+      distance = dot(r, r);
+      if (!(distance > before))
+        return std::nullopt;
+      bends = bends || off * off > curved * curved * dot(segment, segment);
+      k += step;
+    }
+    if (!bends)
+      return std::nullopt;
+    BranchCut cut;
+    for (int at = end;; at += step) {
+      const Vec2 r = cracks.plane[at] - x;
+      cut.points_.push_back({{dot(r, heading), cross(heading, r)}, norm(r)});
+      if (at == k)
+        return cut;
+    }
+  }
+
+  /// The sign of the fields at a place beside the crack, in the tip's frame (x along its heading).
+  double sign(Vec2 r) const {
+    const Vec2 c = at(norm(r));
+    const bool between = c.y > 0 ? r.y > 0 && cross(c, r) > 0 : r.y < 0 && cross(c, r) < 0;
+    return between ? -1 : 1;
+  }
+  /// That on the face to the left of the heading, at a place on the crack.
+  static double sign_on_left(Vec2 r) { return r.y < 0 ? -1 : 1; }
+
+  /// Sine of the angle between a segment and the heading from which on the cut follows the crack.
+  static constexpr double curved = 0.05;
+  /// And that from which on the crack is bent.
+  static constexpr double bent = 0.2;
+
+ private:
+  struct Point {
+    Vec2 r;  ///< in the tip's frame
+    double distance;
+  };
+
+  /// Where the crack is as far from the tip.
+  Vec2 at(double distance) const {
+    const auto next = std::upper_bound(points_.begin() + 1, points_.end() - 1, distance,
+                                       [](double d, const Point& p) { return d < p.distance; });
+    const Point &a = next[-1], &b = *next;
+    return a.r + ((distance - a.distance) / (b.distance - a.distance)) * (b.r - a.r);
+  }
+
+  std::vector<Point> points_;  ///< from the tip on
+};
+
+}  // namespace riven

@@ -1,0 +1,75 @@
+// On which side of a bent crack a place lies, as the fields around its tip see it.
+#include "core/fracture/branch_cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/fracture/opening.hpp"
+#include "core/scene/scene.hpp"
+
+namespace riven {
+namespace {
+
+Cracks one_crack(std::vector<Vec2> points) {
+  Scene scene;
+  CrackLine line;
+  line.points = std::move(points);
+  scene.cracks = {line};
+  return make_cracks(scene, 0.5);
+}
+
+std::optional<BranchCut> cut_of(const Cracks& cracks, bool last, double far = 6) {
+  Tip tip;
+  tip.last = last;
+  return BranchCut::along(cracks, tip, heading_of(cracks, tip), far);
+}
+
+TEST(BranchCut, IsThatOfTheFieldsThemselvesBehindAStraightTip) {
+  EXPECT_FALSE(cut_of(one_crack({{-10, 0}, {0, 0.1}}), true));
+  EXPECT_FALSE(cut_of(one_crack({{-10, 5}, {-7, 0}, {0, 0}}), true)) << "what is farther than it is asked for";
+  EXPECT_TRUE(cut_of(one_crack({{-10, 5}, {-3, 0}, {0, 0}}), true));
+}
+
+TEST(BranchCut, IsNotKnownWhereTheCrackComesBack) {
+  EXPECT_FALSE(cut_of(one_crack({{-2, 3}, {-3, 0.5}, {-4, 0}, {0, 0}}), true));
+}
+
+// Going round the tip from straight ahead to a place, without a step over the crack, the half angle goes on; the fields
+// as written have it jump where it passes the line behind the tip.
+TEST(BranchCut, HasTheSignThatGoesOnRoundTheTip) {
+  constexpr double pi = std::numbers::pi;
+  for (const double turn : {0.4, -0.4, 1.2, -1.2, 1.5, -1.5})  // of the heading against the crack behind the bend
+    for (const bool last : {true, false}) {
+      const Vec2 bend{1, 2}, t{std::cos(turn), std::sin(turn)}, end = bend + 2 * t;
+      std::vector<Vec2> points{bend - Vec2{9, 0}, bend, end};
+      if (!last)
+        std::reverse(points.begin(), points.end());
+      const auto cut = cut_of(one_crack(points), last);
+      ASSERT_TRUE(cut) << turn;
+      for (const double R : {0.5, 2.5, 4.0, 5.5}) {
+        // the crack at this distance: on the arm, or behind the bend where |end - (bend - s)| = R
+        double of_crack = pi;
+        if (R > 2) {
+          const double s = -2 * std::cos(turn) + std::sqrt(R * R - 4 * std::sin(turn) * std::sin(turn));
+          const Vec2 r = bend - Vec2{s, 0} - end;
+          of_crack = std::atan2(cross(t, r), dot(t, r));
+          if (of_crack < 0 && turn > 0)
+            of_crack += 2 * pi;
+          if (of_crack > 0 && turn < 0)
+            of_crack -= 2 * pi;
+        }
+        // angles from the right face round to the left one
+        const double left = of_crack > 0 ? of_crack : of_crack + 2 * pi, right = left - 2 * pi;
+        for (double a = right + 0.05; a < left; a += 0.1) {
+          const bool passed = a > pi || a < -pi;
+          EXPECT_EQ(cut->sign({R * std::cos(a), R * std::sin(a)}), passed ? -1 : 1)
+              << "turn " << turn << " last " << last << " R " << R << " angle " << a;
+        }
+      }
+    }
+}
+
+}  // namespace
+}  // namespace riven
