@@ -41,7 +41,10 @@ class BranchCut {
     BranchCut cut;
     for (int at = end;; at += step) {
       const Vec2 r = cracks.plane[at] - x;
-      cut.points_.push_back({{dot(r, heading), cross(heading, r)}, norm(r)});
+      const Point p{{dot(r, heading), cross(heading, r)}, norm(r)};
+      cut.points_.push_back(p);
+      if (p.distance > 0)
+        cut.ahead_ = std::max(cut.ahead_, p.r.x / p.distance);
       if (at == k)
         return cut;
     }
@@ -49,7 +52,10 @@ class BranchCut {
 
   /// The sign of the fields at a place beside the crack, in the tip's frame (x along its heading).
   double sign(Vec2 r) const {
-    const Vec2 c = at(norm(r));
+    const double distance = norm(r);
+    if (r.x > ahead_ * distance)  // as most places are
+      return 1;
+    const Vec2 c = at(distance);
     const bool between = c.y > 0 ? r.y > 0 && cross(c, r) > 0 : r.y < 0 && cross(c, r) < 0;
     return between ? -1 : 1;
   }
@@ -76,6 +82,7 @@ class BranchCut {
   }
 
   std::vector<Point> points_;  ///< from the tip on
+  double ahead_ = -1;          ///< largest cosine of the angle to the heading under which the tip sees them
 };
 
 }  // namespace riven
