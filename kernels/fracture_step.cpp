@@ -163,10 +163,11 @@ class JSearch {
 
   static bool usable(const TipTask& task) { return task.interaction && !task.sums.blind; }
 
-  /// The intensities by the interaction integral with the size that J gives; at rest where the crack bends with their
-  /// own, as energies along faces next to a bend are steeper than the grid resolves.
+  /// The intensities by the interaction integral with the size that J gives; at rest where the crack bends or another
+  /// one passes with their own, as energies along such faces may be steeper than the grid resolves.
   StressIntensity sized(const Tip& tip, const TipTask& task, StressIntensity M) const {
-    return task.cut && !(tip.speed > 0) ? M : share_in_proportion(*task.solid, tip.J, speed_of(tip), M);
+    const bool faces_count = task.cut || task.sums.crossed;
+    return faces_count && !(tip.speed > 0) ? M : share_in_proportion(*task.solid, tip.J, speed_of(tip), M);
   }
 
   static StressIntensity interaction(const DueTip& d, const TipTask& task) {

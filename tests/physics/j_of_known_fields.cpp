@@ -233,7 +233,9 @@ TEST(JOfKnownFields, IsThatOfTheTipAloneAcrossAShutCrack) {
 // contour between that crack and the tip still tells the modes apart, though the faces do not say that they have slid.
 TEST(JOfKnownFields, IsSharedOutWhereAnotherCrackCrossesTheContour) {
   const test::ChosenSpace space;
-  for (const auto& [side, looked_at] : {std::pair{1.0, true}, {-1.0, true}, {1.0, false}, {-1.0, false}}) {
+  for (const int variant : {0, 1, 2, 3}) {
+    const double side = variant % 2 == 0 ? 1 : -1;
+    const bool looked_at = variant < 2;
     Scene scene = square(Plane::strain, {crack("target", {{-13 * side, 0.1}, {0, 0.1}}),
                                          crack("cut", {{3.5 * side, -20}, {3.5 * side, 20}})});
     scene.contact.law = ContactLaw::ignored;  // the fields are laid without the opening that goes with them
@@ -250,7 +252,8 @@ TEST(JOfKnownFields, IsSharedOutWhereAnotherCrackCrossesTheContour) {
     EXPECT_EQ(std::isnan(tip.M_I), !looked_at) << "the contour that gives J does not tell";
     EXPECT_NEAR(tip.O_II, 0, 1e-9) << "nor do the faces";
     EXPECT_NEAR(tip.K_II / tip.K_I, 0.5, 0.01);
-    EXPECT_NEAR((tip.K_I * tip.K_I + tip.K_II * tip.K_II) / solid.E, tip.J, 1e-9 * tip.J);
+    EXPECT_NEAR((tip.K_I * tip.K_I + tip.K_II * tip.K_II) / solid.E, tip.J, (looked_at ? 0.03 : 1e-9) * tip.J)
+        << "K has the size of J only where the interaction integral does not see what passes";
     EXPECT_NEAR(tip.release, tip.J, 0.03 * tip.J) << "K of four cells is off by 1.5 % at most";
   }
 }
