@@ -19,7 +19,8 @@ namespace riven {
 struct FaceSegment {
   int k, crack;
   Vec2 middle, normal;  ///< m; normal of unit length, towards above
-  double length, q;     ///< m
+  double length;        ///< m
+  double q;             ///< JWeight::q in its middle
   double turn;          ///< sine of the angle to the tip's heading; 2 for another crack
 
   /// The length of one of its faces along the normal out of the solid.
@@ -85,7 +86,7 @@ class KnownOnFaces {
     const PlaneElasticity& solid = *task_.solid;
     const Vec2 n = in_frame(face.normal), s{n.y, -n.x}, out = in_frame(out_of_solid);
     const auto [along, across, shear] = stress;
-    const double lateral = (3 - solid.kappa) / (1 + solid.kappa);
+    const double lateral = (3 - solid.kappa) / (1 + solid.kappa);  // nu, in plane strain nu / (1 - nu)
     const double e_ss = (along - lateral * across) / solid.E, e_nn = (across - lateral * along) / solid.E;
     const double e_sn = shear / (2 * solid.mu);
     const Vec2 slope = s.x * (e_ss * s + (e_sn + w) * n) + n.x * ((e_sn - w) * s + e_nn * n);  // du1/dx_1
