@@ -243,7 +243,7 @@ class FaceIntegral {
 
   void add_faces(const Segment& s, const Meeting& meeting) {
     const Vec2 first = cracks_.plane0[s.k + 1] - cracks_.plane0[s.k];
-    if (s.length > torn * norm(first))
+    if (is_torn(cracks_, s.k))
       return;
     const bool own_meet = meeting.holds && s.crack == task_.crack;
     if (own_meet)
@@ -311,7 +311,6 @@ class FaceIntegral {
   static constexpr double straight = 1e-2;
   static constexpr double sharp = 0.26;  ///< cosine of the angle between segments of a sharp bend, 75 degrees: J is 13
                                          ///< % low at 70, 30 at 80
-  static constexpr double torn = 2;      ///< length of a segment over its first one from which it spans an opening
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
   static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction
   static constexpr int places = 4;          ///< at which it is looked for instead

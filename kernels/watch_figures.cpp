@@ -54,6 +54,14 @@ Vec2 place_of_stretch(const Particles<Real, 2>& p, long chunk) {
 /// way as the fourth. It lags behind the energy by so many times what that of a load at once does.
 constexpr double power_of_work = 6;
 
+/// Is one of the segments of a point torn? Its normal is not that of faces then.
+bool beside_tear(const Cracks& cracks, int point) {
+  const auto torn = [&](int k) {
+    return k >= 0 && k + 1 < cracks.points() && cracks.crack[k] == cracks.crack[k + 1] && is_torn(cracks, k);
+  };
+  return torn(point - 1) || torn(point);
+}
+
 /// The largest of all faces, also of those that may pass through each other: what follows is no solid. Points of both
 /// faces that have slid by more than a cell no longer lie opposite each other: what is between them says nothing of an
 /// overlap.
@@ -62,7 +70,7 @@ Overlap penetration(const Cracks& cracks, double cell) {
   for (int i = 0; i < cracks.points(); ++i) {
     const FacePair opening = face_opening(cracks, i);
     const double overlap = -opening.normal;
-    if (overlap > most.depth && std::abs(opening.sliding) < cell)
+    if (overlap > most.depth && std::abs(opening.sliding) < cell && !beside_tear(cracks, i))
       most = {overlap, cracks.plane[i]};
   }
   return most;

@@ -15,6 +15,14 @@ CrackFrame crack_frame(const Cracks&, int point);
 /// Opening of the faces at a point, m: upper less lower, in the directions of the crack.
 FacePair face_opening(const Cracks&, int point);
 
+/// Has a segment, from a point to the next, become more than twice as long as it first was? It spans the opening of
+/// another crack then, and has no solid beside it.
+inline bool is_torn(const Cracks& cracks, int segment) {
+  constexpr double torn = 2;
+  return norm(cracks.plane[segment + 1] - cracks.plane[segment]) >
+         torn * norm(cracks.plane0[segment + 1] - cracks.plane0[segment]);
+}
+
 /// The same as laws see it: half a step ahead where the surfaces move by the mean of a step's velocities. A spring k
 /// between masses m that pulls with the opening at the start of such a step gains energy in every step, (w dt)^2/2 of
 /// what it holds, w^2 = k/m; with the opening half a step later it moves by the leapfrog scheme, which keeps energy

@@ -69,6 +69,13 @@ TEST(WatchedFigures, AreWhatTheStateHolds) {
     EXPECT_EQ(figure(m, Watched::expansion).place, place(m, 40));
     EXPECT_NEAR(figure(m, Watched::penetration).value, 0.7, 1e-12);
     EXPECT_EQ(figure(m, Watched::penetration).place, c.plane[free]);
+    const Vec2 before = c.plane[free + 1];
+    c.plane[free + 1].x += 3 * h;  // a segment of it spans the opening of another crack
+    watch_figures(m);
+    EXPECT_NEAR(figure(m, Watched::penetration).value, 0.1, 1e-12);
+    c.plane[free + 1] = before;
+    watch_figures(m);
+    EXPECT_NEAR(figure(m, Watched::penetration).value, 0.7, 1e-12);
     c.upper[free].y += 0.7 * h;
     watch_figures(m);
     EXPECT_NEAR(figure(m, Watched::penetration).value, 0.1, 1e-12);
