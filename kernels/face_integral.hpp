@@ -7,11 +7,11 @@
 // small gap is no contact yet: contact must have acted on the nodes around, and the law must bear what the stresses ask
 // of it, as a law that only presses bears nothing behind a tip that is about to open.
 // Of the target crack's own faces those in line with its tip have no share of the energy; what they bear is counted by
-// how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From `bent` on
-// they are like those of other cracks; only that their strain energy is that of the fitted tension along them. The
-// particles that a tip has passed keep stresses that cancel on the grid: their energies, which are squares, do not, and
-// would make J of a tip that has turned by one segment 7 % low. Next to a tip the tension is that of the first segment
-// clear of it.
+// how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From
+// BranchCut::bent on they are like those of other cracks; only that their strain energy is that of the fitted tension
+// along them. The particles that a tip has passed keep stresses that cancel on the grid: their energies, which are
+// squares, do not, and would make J of a tip that has turned by one segment 7 % low. Next to a tip the tension is that
+// of the first segment clear of it.
 // A segment whose ends another crack has drawn apart spans that crack's opening, and has no solid beside it.
 #pragma once
 #include <algorithm>
