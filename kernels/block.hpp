@@ -20,6 +20,9 @@ struct Positions {
   BodyLookup<DomainSetting<Real, 2>> domain;
 };
 
+/// In place of slots: a particle and the three behind it in its block have the same nodes, none of them across a crack.
+struct FourTogether {};
+
 template <class Real, class Shape>
 struct Block {
   static constexpr int N = Shape::width;

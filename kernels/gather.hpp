@@ -1,5 +1,6 @@
 // Takes node values, in groups of four, from the nodes of a particle of a block.
 #pragma once
+#include <algorithm>
 #include <type_traits>
 
 #include "kernels/block.hpp"
@@ -13,6 +14,22 @@ template <class Real>
 struct Gathered {
   Quad<Real> value, dx, dy;
 };
+
+/// The same at four particles, [node value] of the particles, the gradients of the first two alone.
+template <class Real>
+struct GatheredFour {
+  Quad<Real> value[4], dx[2], dy[2];
+};
+
+/// Puts a number of one particle, or of four that follow each other, where lanes hold it.
+template <class Real>
+RIVEN_INLINE void put(Real* lane, Real value) {
+  *lane = value;
+}
+template <class Real>
+RIVEN_INLINE void put(Real* lane, const Quad<Real>& values) {
+  put_four(lane, values);
+}
 
 /// sum S q, sum dS/dx q, sum dS/dy q over the nodes of particle k.
 template <bool Gradient, class Real, class Shape>
@@ -63,10 +80,43 @@ RIVEN_INLINE Gathered<Real> gather_slots(const Block<Real, Shape>& w, int k, con
   return out;
 }
 
-/// The one or the other, by what each_particle hands over.
-template <bool Gradient, class Real, class Shape, class Slots>
-RIVEN_INLINE Gathered<Real> gather_from(const Block<Real, Shape>& w, int k, const Real* q, int nx, Slots slots) {
-  if constexpr (std::is_pointer_v<Slots>)
+/// The same for lanes k .. k + 3, which have the same nodes, and of the first `Values` node values alone: a vector
+/// holds one number of all four.
+template <bool Gradient, int Values, class Real, class Shape>
+RIVEN_INLINE GatheredFour<Real> gather_four(const Block<Real, Shape>& w, int k, const Real* q, int nx) {
+  constexpr int N = Shape::width, components = std::max(Values, Gradient ? 2 : 0);
+  GatheredFour<Real> out{};
+  const Real* row = q + 4L * (static_cast<long>(w.iy[k]) * nx + w.ix[k]);
+#pragma GCC unroll 3
+  for (int j = 0; j < N; ++j, row += 4L * nx) {
+    const Quad<Real> sy = four_at(w.sy[j] + k), gy = four_at(w.gy[j] + k);
+#pragma GCC unroll 4
+    for (int c = 0; c < components; ++c) {
+      Quad<Real> s{};
+#pragma GCC unroll 3
+      for (int i = 0; i < N; ++i)
+        s += row[4 * i + c] * four_at(w.sx[i] + k);
+      if (c < Values)
+        out.value[c] += sy * s;
+      if (Gradient && c < 2) {
+        Quad<Real> d{};
+#pragma GCC unroll 3
+        for (int i = 0; i < N; ++i)
+          d += row[4 * i + c] * four_at(w.gx[i] + k);
+        out.dx[c] += sy * d;
+        out.dy[c] += gy * s;
+      }
+    }
+  }
+  return out;
+}
+
+/// One of these, by what each_particle or each_four hands over.
+template <bool Gradient, int Values, class Real, class Shape, class Slots>
+RIVEN_INLINE auto gather_from(const Block<Real, Shape>& w, int k, const Real* q, int nx, Slots slots) {
+  if constexpr (std::is_same_v<Slots, FourTogether>)
+    return gather_four<Gradient, Values>(w, k, q, nx);
+  else if constexpr (std::is_pointer_v<Slots>)
     return gather_slots<Gradient>(w, k, q, slots);
   else
     return gather<Gradient>(w, k, q, nx);

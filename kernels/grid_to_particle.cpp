@@ -29,14 +29,14 @@ struct MotionLanes {
   alignas(64) Real vx[exec::lanes], vy[exec::lanes], ax[exec::lanes], ay[exec::lanes], hx[exec::lanes], hy[exec::lanes];
 };
 
-template <class Real>
-RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const Gathered<Real>& updated, const Gathered<Real>& handed) {
-  m.vx[k] = updated.value[0];
-  m.vy[k] = updated.value[1];
-  m.ax[k] = updated.value[2];
-  m.ay[k] = updated.value[3];
-  m.hx[k] = handed.value[0];
-  m.hy[k] = handed.value[1];
+template <class Real, class From, class Handed>
+RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const From& updated, const Handed& handed) {
+  put<Real>(m.vx + k, updated.value[0]);
+  put<Real>(m.vy + k, updated.value[1]);
+  put<Real>(m.ax + k, updated.value[2]);
+  put<Real>(m.ay + k, updated.value[3]);
+  put<Real>(m.hx + k, handed.value[0]);
+  put<Real>(m.hy + k, handed.value[1]);
 }
 
 template <bool Gradient, bool High, class Real, class Shape, class Slots>
@@ -44,15 +44,15 @@ RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* 
                                 Slots slots, bool high_gradient, MotionLanes<Real>& m, GradientLanes<Real>& g) {
   if constexpr (High) {
     if (Gradient && high_gradient) {
-      const Gathered<Real> handed = gather_from<true>(w, k, high, nx, slots);
-      set_motion(m, k, gather_from<false>(w, k, q, nx, slots), handed);
+      const auto handed = gather_from<true, 2>(w, k, high, nx, slots);
+      set_motion(m, k, gather_from<false, 4>(w, k, q, nx, slots), handed);
       g.set(k, handed);
       return;
     }
   }
-  const Gathered<Real> updated = gather_from<Gradient>(w, k, q, nx, slots);
+  const auto updated = gather_from<Gradient, 4>(w, k, q, nx, slots);
   if constexpr (High)
-    set_motion(m, k, updated, gather_from<false>(w, k, high, nx, slots));
+    set_motion(m, k, updated, gather_from<false, 2>(w, k, high, nx, slots));
   else
     set_motion(m, k, updated, updated);
   if constexpr (Gradient)
@@ -126,7 +126,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const CrossingSlots extra = crossing_slots(s);
   const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
-  const bool high_gradient = rule.high_gradient;
+  const bool high_gradient = rule.high_gradient, together = in_cells(s);
   const WatchTiles<Real, true, true, Stress> see(s.watch, rule.keep != 1, n.compare);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
@@ -136,8 +136,8 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                              {p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr},
                              {q, High ? high : nullptr}}};
   each_tile(space, "grid to particle", tiles, see,
-            [p, at, q, high, nx, law, n, high_gradient] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                     TileWatch<Real>& seen) RIVEN_LANE {
+            [p, at, q, high, nx, law, n, high_gradient, together] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                               TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               MotionLanes<Real> motion;
               GradientLanes<Real> gradient;
@@ -146,7 +146,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 ask_ahead(stretch, first);
                 w.weigh(at, first);
-                each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+                each_gathered<Stress>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
                   gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
                 });
                 find_move(p, first, count, motion, n, dx, dy, seen);

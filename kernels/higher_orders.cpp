@@ -41,7 +41,7 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
                            ask_ahead(stretch, first);
                            w.weigh(at, first);
                            const auto momentum = [&](int k, auto slots) RIVEN_LANE {
-                             return mass[first + k] * gather_from<false>(w, k, term, nx, slots).value;
+                             return mass[first + k] * gather_from<false, 4>(w, k, term, nx, slots).value;
                            };
                            const auto one = [&](int k, auto slots) RIVEN_LANE {
                              constexpr bool crosses = std::is_pointer_v<decltype(slots)>;

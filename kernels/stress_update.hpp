@@ -21,11 +21,13 @@ template <class Real>
 struct GradientLanes {
   alignas(64) Real xx[exec::lanes], xy[exec::lanes], yx[exec::lanes], yy[exec::lanes];
 
-  RIVEN_INLINE void set(int k, const Gathered<Real>& g) {
-    xx[k] = g.dx[0];
-    xy[k] = g.dy[0];
-    yx[k] = g.dx[1];
-    yy[k] = g.dy[1];
+  /// Of one particle, or of four that follow each other.
+  template <class From>
+  RIVEN_INLINE void set(int k, const From& g) {
+    put<Real>(xx + k, g.dx[0]);
+    put<Real>(xy + k, g.dy[0]);
+    put<Real>(yx + k, g.dx[1]);
+    put<Real>(yy + k, g.dy[1]);
   }
   RIVEN_INLINE Mat2<Real> over(int k, Real dt) const { return {dt * xx[k], dt * xy[k], dt * yx[k], dt * yy[k]}; }
 };

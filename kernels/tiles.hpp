@@ -16,6 +16,8 @@
 //   each_four(stretch, w, first, count, in_cells, f, four)   on the host four(k) for lanes k .. k + 3 of the block w
 //       where they have the same nodes, none of them across a crack; f(k, slots) as above for all others, and for all
 //       where particles are no longer in the cells that they were sorted by (in_cells, views.hpp).
+//   each_gathered<Gradient>(stretch, w, first, count, in_cells, f)   the same with f(k, FourTogether{}) for four, which
+//       only gradients gain by.
 //
 // The kinds of scatter are
 //

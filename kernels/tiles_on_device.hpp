@@ -38,6 +38,12 @@ RIVEN_INLINE void each_four(const Stretch& stretch, const Block<Real, Shape>&, l
   each_particle<Shape>(stretch, first, count, one);
 }
 
+template <bool Gradient, class Real, class Shape, class Stretch, class Take>
+RIVEN_INLINE void each_gathered(const Stretch& stretch, const Block<Real, Shape>&, long first, int count, bool,
+                                const Take& take) {
+  each_particle<Shape>(stretch, first, count, take);
+}
+
 template <class Stretch>
 RIVEN_INLINE void ask_ahead(const Stretch&, long) {}
 

@@ -6,6 +6,7 @@
 
 #include "core/exec/parallel.hpp"
 #include "core/state/crack_fields.hpp"
+#include "kernels/block.hpp"
 #include "kernels/square_locks.hpp"
 #include "kernels/tile_run.hpp"
 
@@ -76,6 +77,15 @@ RIVEN_INLINE void each_four(const Stretch& stretch, const Block<Real, Shape>& w,
       }
     one(k++, nullptr);
   }
+}
+
+template <bool Gradient, class Real, class Shape, class Stretch, class Take>
+RIVEN_INLINE void each_gathered(const Stretch& stretch, const Block<Real, Shape>& w, long first, int count,
+                                bool in_cells, const Take& take) {
+  if constexpr (Gradient)
+    each_four(stretch, w, first, count, in_cells, take, [&](int k) RIVEN_LANE { take(k, FourTogether{}); });
+  else
+    each_particle<Shape>(stretch, first, count, take);
 }
 
 template <class Stretch>

@@ -13,13 +13,6 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
-template <class Stretch, class Real, class Shape>
-RIVEN_INLINE void gather_gradients(const Block<Real, Shape>& w, const Stretch& stretch, long first, int count,
-                                   const Real* q, int nx, GradientLanes<Real>& g) {
-  each_particle<Shape>(stretch, first, count,
-                       [&](int k, auto slots) RIVEN_LANE { g.set(k, gather_from<true>(w, k, q, nx, slots)); });
-}
-
 /// -m times the stress that the gradients of the shape functions meet: tau, or tau M^T in USAVG.
 template <class Real>
 struct StressLanes {
@@ -52,13 +45,14 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
+  const bool together = in_cells(s);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
                             {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.mass, p.sxx, p.syy, p.sxy}, {q}}};
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, tiles, static_cast<Real*>(nullptr), q, see,
-      [p, at, extra, law, q, nx, bx, by, step] RIVEN_KERNEL(
+      [p, at, extra, law, q, nx, bx, by, step, together] RIVEN_KERNEL(
           auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
@@ -67,7 +61,9 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
           w.weigh(at, first);
-          gather_gradients(w, stretch, first, count, q, nx, gradient);
+          each_gathered<true>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
+            gradient.set(k, gather_from<true, 0>(w, k, q, nx, slots));
+          });
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
           stress.template take<Averaged>(p, first, count, gradient, step);
           each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
@@ -95,35 +91,36 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
   const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, true, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
+  const bool together = in_cells(s);
   const TileRun<Real> tiles{s.particles.tiles,
                             s.grid.lattice,
                             extra,
                             {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.sxx, p.syy, p.sxy}, {again}}};
   each_tile(space, "stress after, move", tiles, see,
-            [p, at, law, again, nx, step] RIVEN_KERNEL(auto stretch, long begin, long end, TileWatch<Real>& seen)
-                RIVEN_LANE {
-                  Block<Real, Shape> w;
-                  GradientLanes<Real> gradient;
-                  alignas(64) Real wx[L], wy[L];
-                  for (long first = begin; first < end; first += L) {
-                    const int count = static_cast<int>(std::min<long>(L, end - first));
-                    ask_ahead(stretch, first);
-                    w.weigh(at, first);
-                    each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-                      const Gathered<Real> g = gather_from<true>(w, k, again, nx, slots);
-                      gradient.set(k, g);
-                      wx[k] = g.value[2];
-                      wy[k] = g.value[3];
-                    });
-                    update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
-                    exec::for_lanes(count, [&](int k) RIVEN_LANE {
-                      const Real dx = step * wx[k], dy = step * wy[k];
-                      p.x[first + k] += dx;
-                      p.y[first + k] += dy;
-                      seen.moves(k, dx, dy);
-                    });
-                  }
+            [p, at, law, again, nx, step, together] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                 TileWatch<Real>& seen) RIVEN_LANE {
+              Block<Real, Shape> w;
+              GradientLanes<Real> gradient;
+              alignas(64) Real wx[L], wy[L];
+              for (long first = begin; first < end; first += L) {
+                const int count = static_cast<int>(std::min<long>(L, end - first));
+                ask_ahead(stretch, first);
+                w.weigh(at, first);
+                each_gathered<true>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
+                  const auto g = gather_from<true, 4>(w, k, again, nx, slots);
+                  gradient.set(k, g);
+                  put<Real>(wx + k, g.value[2]);
+                  put<Real>(wy + k, g.value[3]);
                 });
+                update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+                exec::for_lanes(count, [&](int k) RIVEN_LANE {
+                  const Real dx = step * wx[k], dy = step * wy[k];
+                  p.x[first + k] += dx;
+                  p.y[first + k] += dy;
+                  seen.moves(k, dx, dy);
+                });
+              }
+            });
   watch_moves(s);
   watch_J(s);
 }

@@ -21,6 +21,11 @@ struct QuadStruct {
       a.c[i] *= s;
     return a;
   }
+  friend RIVEN_FN QuadStruct operator*(QuadStruct a, const QuadStruct& b) {
+    for (int i = 0; i < 4; ++i)
+      a.c[i] *= b.c[i];
+    return a;
+  }
 };
 template <class Real>
 using Quad = QuadStruct<Real>;
@@ -41,6 +46,27 @@ RIVEN_INLINE Quad<Real>& quad_at(Real* p) {
 template <class Real>
 RIVEN_INLINE const Quad<Real>& quad_at(const Real* p) {
   return *reinterpret_cast<const Quad<Real>*>(p);
+}
+
+/// Four values at p, wherever it is.
+template <class Real>
+RIVEN_INLINE Quad<Real> four_at(const Real* p) {
+#if defined(__CUDACC__)
+  return {p[0], p[1], p[2], p[3]};
+#else
+  typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(sizeof(Real)), may_alias));
+  return *reinterpret_cast<const Unaligned*>(p);
+#endif
+}
+template <class Real>
+RIVEN_INLINE void put_four(Real* p, const Quad<Real>& values) {
+#if defined(__CUDACC__)
+  for (int i = 0; i < 4; ++i)
+    p[i] = values[i];
+#else
+  typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(sizeof(Real)), may_alias));
+  *reinterpret_cast<Unaligned*>(p) = values;
+#endif
 }
 
 }  // namespace riven
