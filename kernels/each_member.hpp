@@ -195,6 +195,7 @@ void each_member(FractureReport& r, F&& f) {
   f("crossed", r.crossed);
   f("bent", r.bent);
   f("mixed", r.mixed);
+  f("cut", r.cut);
   f("place", r.place);
 }
 

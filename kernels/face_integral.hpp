@@ -100,11 +100,13 @@ class FaceIntegral {
     const bool loaded = own_.bears(s.k);
     if (loaded)
       own_.add_tractions(s.k, s.q);
+    task_.sums.loaded = task_.sums.loaded || loaded;
     const bool off_line = is_bent(s);
     // tractions of laws are counted already, however little the faces have opened
     const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
     see(!off_line || (task_.cut && !loaded && !meeting.holds));
+    task_.sums.steep = task_.sums.steep || off_line;
     if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
@@ -115,7 +117,9 @@ class FaceIntegral {
   /// another crack is.
   void add_other(const Segment& s) {
     see(task_.passes && !own_.bears(s.k));
-    add_faces(s, meet(s, touching));
+    const Meeting meeting = meet(s, touching);
+    task_.sums.steep = task_.sums.steep || meeting.holds;
+    add_faces(s, meeting);
   }
 
   /// Notes whether the interaction integral can follow.

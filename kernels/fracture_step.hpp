@@ -18,7 +18,8 @@ struct FractureReport {
   long bent = 0;     ///< a bend that is sharp, or has faces pressed together behind it, was too near for a contour that
                      ///< leaves it out
   long mixed = 0;    ///< a tip grew to where its contour takes in another material or thickness
-  Vec2 place[5];
+  long cut = 0;      ///< another crack crossed the tip's too near to it
+  Vec2 place[6];
 };
 
 /// Evaluates J, K_I and K_II at the tips that are due: all of them when a row of the history is, and those whose growth

@@ -37,6 +37,8 @@ struct TipSums {
   double whole = std::numeric_limits<double>::infinity();  ///< m, length of the crack's faces behind the tip that no
                                                            ///< other crack cuts, if that is known to be short
   bool crossed = false;                                    ///< another crack lies in the domain
+  bool steep = false;       ///< energies along faces there are steeper than the grid resolves
+  bool loaded = false;      ///< faces of the tip's own crack there bear tractions
   bool blind = false;       ///< faces there bear what the interaction integral does not see, or it cannot follow them
   std::vector<Vec2> bends;  ///< of its points where it is not, those that the contour should leave out
 };

@@ -138,7 +138,8 @@ struct TractionSettings {
   double decay = 4;                         ///< exponential: the traction falls as exp(-decay x), x from 0 to 1
 };
 
-/// How J and K are found at the tips of cracks (Nairn and Aimene, section 2.2.2).
+/// How J and K are found at the tips of cracks (Nairn and Aimene, section 2.2.2). By fijc_adaptive J of a tip at rest,
+/// where its crack bends or faces of another one are pressed together, is that of K by the interaction integral.
 struct FractureRules {
   bool asked = false;  ///< J and K at every tip; growth asks for them, too
   JMethod method = JMethod::fijc_adaptive;

@@ -27,8 +27,8 @@ struct Tip {
 
   // the last evaluation of J
   long step = -1;            ///< Clock::step of it
-  double J = 0;              ///< J/m^2, energy release rate along the crack
-  double J1 = 0, J2 = 0;     ///< J/m^2, along the grid's axes
+  double J = 0;              ///< J/m^2, energy release rate along the crack; by K where FractureRules::method says
+  double J1 = 0, J2 = 0;     ///< J/m^2, the integral along the grid's axes
   double K_I = 0, K_II = 0;  ///< Pa m^0.5, J shared out by the interaction integral where it holds, else by the opening
   double O_I = 0, O_II = 0;  ///< Pa m^0.5, J shared out by the opening of the crack behind the tip
   /// Pa m^0.5, what growth goes by: intensities of a tip at rest, for which K_Ic = sqrt(E' J_Ic). After a check of a
