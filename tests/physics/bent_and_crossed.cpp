@@ -179,8 +179,9 @@ TEST(BentCracks, GrowInTheirDirection) {
   }
 }
 
-// By the opening up to the other crack the phases are off by 6 degrees in the first two; J by its own integral is 47 %
-// low and 30 % high behind the cracks that are shut, the last two.
+// By the opening up to the other crack the phases are off by 6 degrees in the first two; J by its own integral is 30 %
+// high and 47 % low behind the cracks that are shut, the last two. The stuck one, whose stresses are as if it were not
+// there, is off most: by 2.3 degrees, and by 3.7 % in the root of J.
 TEST(CrossedCracks, HaveTheirJAndModes) {
   const Vec2 place{1.4 * mm, 0};
   const CrackLine crossed = crack("crossed", {{-half, 0}, {half, 0}});
@@ -190,11 +191,12 @@ TEST(CrossedCracks, HaveTheirJAndModes) {
     double angle, across, arm;  ///< degrees of the grid and of the crack across, and half of its length
     ContactLaw law;
     double phase, over_straight;  ///< K over that of the crack that nothing crosses
+    double degrees = 2, limit = 0.03;
   };
   for (const Case& c : {Case{"slanted", {12, 10, 5}, 17, 50, 1 * mm, ContactLaw::frictionless, 23.8, 0.844},
                         Case{"open", {10, 10, 0}, 0, 50, 1 * mm, ContactLaw::frictionless, 17.9, 0.618},
                         Case{"shut", {-6, 10, 3}, 17, 90, 1.5 * mm, ContactLaw::frictionless, 13.9, 0.836},
-                        Case{"stuck", {-10, 10, 3}, 17, 60, 1.5 * mm, ContactLaw::stick, 16.4, 0.999}}) {
+                        Case{"stuck", {-10, 10, 3}, 17, 60, 1.5 * mm, ContactLaw::stick, 16.4, 0.999, 2.5, 0.04}}) {
     const Pull pull{c.pull.along * MPa, c.pull.across * MPa, c.pull.shear * MPa};
     const Vec2 arm = c.arm * Vec2{std::cos(c.across * degree), std::sin(c.across * degree)};
     const Tip straight = tip_of(disk_under(pull, c.angle * degree, {crossed}), 8);
@@ -204,10 +206,11 @@ TEST(CrossedCracks, HaveTheirJAndModes) {
       const Tip tip = tip_of(scene, contour);
       const auto what = fmt::format("{} crack 2.4 cells behind the tip, contour of {}", c.what, contour);
       const double off = phase(K_of(tip)) - c.phase, over = std::sqrt(tip.J / straight.J) / c.over_straight - 1;
-      gates::report(what + ": atan K_II / K_I less its reference, degrees", off, "2.5");
-      gates::report(what + ": root of J over that of the crack alone, over its reference, less 1", over, "0.04");
-      EXPECT_NEAR(off, 0, 2.5);
-      EXPECT_NEAR(over, 0, 0.04);
+      gates::report(what + ": atan K_II / K_I less its reference, degrees", off, fmt::format("{}", c.degrees));
+      gates::report(what + ": root of J over that of the crack alone, over its reference, less 1", over,
+                    fmt::format("{}", c.limit));
+      EXPECT_NEAR(off, 0, c.degrees);
+      EXPECT_NEAR(over, 0, c.limit);
     }
   }
 }
