@@ -15,26 +15,52 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
+/// Lane by lane, so that looking at a block of particles is one vectorised loop.
 struct Largest {
-  Speeds s;
+  static constexpr int lanes = exec::lanes;
+  alignas(exec::line) double wave[lanes] = {}, particle[lanes] = {}, sum[lanes] = {};
+
+  RIVEN_INLINE void take(int k, double c, double v, double both) {
+    wave[k] = wave[k] < c ? c : wave[k];
+    particle[k] = particle[k] < v ? v : particle[k];
+    sum[k] = sum[k] < both ? both : sum[k];
+  }
   RIVEN_FN Largest& operator+=(const Largest& o) {
-    s.wave = std::max(s.wave, o.s.wave);
-    s.particle = std::max(s.particle, o.s.particle);
-    s.sum = std::max(s.sum, o.s.sum);
+    for (int k = 0; k < lanes; ++k)
+      take(k, o.wave[k], o.particle[k], o.sum[k]);
     return *this;
+  }
+  Speeds speeds() const {
+    const auto most = [](const double* of) { return *std::max_element(of, of + lanes); };
+    return {most(wave), most(particle), most(sum)};
   }
 };
 
 template <class Law, class Real>
 Speeds largest_speeds(const exec::Space& space, const BodyLookup<Law>& law, const Particles<Real, 2>& particles) {
+  constexpr int L = exec::lanes;
   const ParticleReads<Real> p = reads(particles);
-  return exec::parallel_reduce<Largest>(
-             space, "time step", particles.count(),
-             [=] RIVEN_KERNEL(long i) {
-               const double c = law.of(i).wave_speed(law_state<Law>(p, i)), v = norm({p.vx[i], p.vy[i]});
-               return Largest{{c, v, c + v}};
-             })
-      .s;
+  const long count = particles.count();
+  return exec::parallel_sum<Largest>(
+             space, "time step", (count + L - 1) / L,
+             [=] RIVEN_KERNEL(long block, Largest& most) {
+               const long first = block * L;
+               const auto look = [&](const auto& law_of) RIVEN_LANE {
+                 exec::for_lanes(static_cast<int>(std::min<long>(L, count - first)), [&](int k) RIVEN_LANE {
+                   const long i = first + k;
+                   const double c = law_of(i).wave_speed(law_state<Law>(p, i)), v = norm({p.vx[i], p.vy[i]});
+                   most.take(k, c, v, c + v);
+                 });
+               };
+               if (law.single) {
+                 const Law one = law.table[0];
+                 look([&](long) -> const Law& { return one; });
+               } else {
+                 look([&](long i) -> const Law& { return law.of(i); });
+               }
+             },
+             exec::chunk / L)
+      .speeds();
 }
 
 /// sqrt(rho h / k) of the stiffest cohesive law and the lightest material, s.

@@ -85,6 +85,9 @@ RIVEN_INLINE void for_lanes(int count, Body&& body) {
     for (int k = 0; k < lanes; ++k)
       body(k);
   } else {
+#if !defined(__CUDACC__)
+#pragma omp simd
+#endif
     for (int k = 0; k < count; ++k)
       body(k);
   }
