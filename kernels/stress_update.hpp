@@ -44,7 +44,7 @@ namespace detail {
 template <bool Averaged, class Real>
 RIVEN_INLINE Mat2<Real> increment(const GradientLanes<Real>& g, int k, Real dt) {
   if constexpr (Averaged)
-    return exp_minus_identity(g.over(k, Real(0.5) * dt) * middle(g, k, dt));
+    return exp_of_middle_minus_identity(g.over(k, Real(0.5) * dt));
   else
     return exp_minus_identity(g.over(k, dt));
 }
@@ -52,6 +52,14 @@ RIVEN_INLINE Mat2<Real> increment(const GradientLanes<Real>& g, int k, Real dt) 
 template <bool Averaged, class Law, class Real, class LawOf>
 RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, int count, const GradientLanes<Real>& g,
                                      Real dt, const LawOf& law_of, TileWatch<Real>& seen) {
+  alignas(64) Real xx[exec::lanes], xy[exec::lanes], yx[exec::lanes], yy[exec::lanes];
+  exec::for_lanes(count, [&](int k) RIVEN_LANE {
+    const Mat2<Real> dF = increment<Averaged>(g, k, dt);
+    xx[k] = dF.xx;
+    xy[k] = dF.xy;
+    yx[k] = dF.yx;
+    yy[k] = dF.yy;
+  });
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     const long i = first + k;
     LawState<Real> s;
@@ -62,7 +70,7 @@ RIVEN_INLINE void update_stress_each(const ParticleView<Real>& p, long first, in
       s.F = {p.Fxx[i], p.Fxy[i], p.Fyx[i], p.Fyy[i]};
     else
       s.J = p.J[i];
-    law_of(i).update(increment<Averaged>(g, k, dt), s);
+    law_of(i).update(Mat2<Real>{xx[k], xy[k], yx[k], yy[k]}, s);
     p.sxx[i] = s.xx;
     p.syy[i] = s.yy;
     p.sxy[i] = s.xy;

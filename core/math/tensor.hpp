@@ -46,17 +46,32 @@ RIVEN_INLINE Real principal_stretch(const Mat2<Real>& F) {
   return std::sqrt(Real(0.5) * (trace + std::sqrt(square > 0 ? square : Real(0))));
 }
 
-/// exp(A) - I for a small A = dt grad v, to fourth order in |A|. With s = tr A / 2 and q = s^2 - det A,
-///   exp(A) = e^s [ cosh(sqrt q) I + sinh(sqrt q)/sqrt q (A - s I) ]      (Cayley-Hamilton)
+/// exp(s I + D) - I for small ones, to fourth order, D without trace and D^2 = q I,
+///   exp(s I + D) = e^s [ cosh(sqrt q) I + sinh(sqrt q)/sqrt q D ]      (Cayley-Hamilton)
+/// of which D = `scale` times the matrix [dev xy; yx -dev].
 /// Keeps det and rotations to O(|A|^5), where I + A stretches a rotating body by |A|^2 / 2 in every step. Without the
 /// identity, whose last bit is some 1e-13 of the strain that a stiff solid bears, small strains keep all their digits.
 template <class Real>
-RIVEN_INLINE Mat2<Real> exp_minus_identity(const Mat2<Real>& A) {
-  const Real s = Real(0.5) * (A.xx + A.yy), q = s * s - det(A);
+RIVEN_INLINE Mat2<Real> exp_minus_identity(Real s, Real q, Real scale, Real dev, Real xy, Real yx) {
   const Real e = s * (Real(1) + s * (Real(0.5) + s * (Real(1) / 6 + s * (Real(1) / 24))));  // e^s - 1
   const Real c = e + (Real(1) + e) * (q * (Real(0.5) + q * (Real(1) / 24)));
-  const Real d = (Real(1) + e) * (Real(1) + q * (Real(1) / 6 + q * (Real(1) / 120)));
-  return {c + d * (A.xx - s), d * A.xy, d * A.yx, c + d * (A.yy - s)};
+  const Real d = scale * (Real(1) + e) * (Real(1) + q * (Real(1) / 6 + q * (Real(1) / 120)));
+  return {c + d * dev, d * xy, d * yx, c - d * dev};
+}
+
+/// exp(A) - I for a small A = dt grad v.
+template <class Real>
+RIVEN_INLINE Mat2<Real> exp_minus_identity(const Mat2<Real>& A) {
+  const Real dev = Real(0.5) * (A.xx - A.yy);
+  return exp_minus_identity(Real(0.5) * (A.xx + A.yy), dev * dev + A.xy * A.yx, Real(1), dev, A.xy, A.yx);
+}
+
+/// exp(A (I + A)^-1) - I for a small A:  A (I + A)^-1 = (A + det A I) / det(I + A)      (Cayley-Hamilton).
+template <class Real>
+RIVEN_INLINE Mat2<Real> exp_of_middle_minus_identity(const Mat2<Real>& A) {
+  const Real half = Real(0.5) * (A.xx + A.yy), dev = Real(0.5) * (A.xx - A.yy), q = dev * dev + A.xy * A.yx;
+  const Real det_A = half * half - q, scale = Real(1) / (Real(1) + Real(2) * half + det_A);
+  return exp_minus_identity(scale * (half + det_A), scale * scale * q, scale, dev, A.xy, A.yx);
 }
 
 /// (I + A)^-1.

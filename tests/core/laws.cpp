@@ -89,6 +89,19 @@ TYPED_TEST(Laws, OneTurnLeavesNoStress) {
   }
 }
 
+/// exp(A (I + A)^-1) by the inverse and the product.
+TEST(ExpOfMiddle, IsThatOfTheProduct) {
+  for (const Mat2<double>& A :
+       {Mat2<double>{0.04, 0.03, -0.01, -0.02}, Mat2<double>{0, -0.2, 0.2, 0}, Mat2<double>{-3e-9, 5e-9, 1e-9, 2e-9}}) {
+    const Mat2<double> one = exp_of_middle_minus_identity(A), other = exp_minus_identity(A * inverse_of_one_plus(A));
+    const double rounding = 1e-15 * std::sqrt(A.xx * A.xx + A.xy * A.xy + A.yx * A.yx + A.yy * A.yy);
+    EXPECT_NEAR(one.xx, other.xx, rounding);
+    EXPECT_NEAR(one.xy, other.xy, rounding);
+    EXPECT_NEAR(one.yx, other.yx, rounding);
+    EXPECT_NEAR(one.yy, other.yy, rounding);
+  }
+}
+
 /// A strain increment far below the last bit of 1, along and across a shear, and with a spin of twenty
 /// times its size.
 TEST(LinearElasticLaw, KeepsAllDigitsOfSmallIncrements) {
