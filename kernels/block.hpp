@@ -48,31 +48,34 @@ struct Block {
   }
 
   /// Weights of particles first .. first + lanes - 1. Lanes past the end of a tile hold other particles or padding,
-  /// whose weights nobody uses; computing them keeps the loop whole.
+  /// whose weights nobody uses; computing them keeps the loop whole. Gradients only for those who ask for them.
+  template <bool Gradient>
   RIVEN_INLINE void weigh(const Positions<Real>& p, long first) {
     if (p.domain.single) {
       const DomainSetting<Real, 2> d = p.domain.table[0];
-      weigh_each(p, first, [&](long) -> const DomainSetting<Real, 2>& { return d; });
+      weigh_each<Gradient>(p, first, [&](long) -> const DomainSetting<Real, 2>& { return d; });
     } else {
-      weigh_each(p, first, [&](long i) -> const DomainSetting<Real, 2>& { return p.domain.of(i); });
+      weigh_each<Gradient>(p, first, [&](long i) -> const DomainSetting<Real, 2>& { return p.domain.of(i); });
     }
   }
 
  private:
-  template <class DomainOf>
+  template <bool Gradient, class DomainOf>
   RIVEN_INLINE void weigh_each(const Positions<Real>& p, long first, const DomainOf& domain_of) {
     const double* x = p.x + first;
     const double* y = p.y + first;
     const Real inv_h = Real(p.inv_h);
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const DomainSetting<Real, 2>& d = domain_of(first + k);
-      const Axis<Real, N> a = Shape::axis((x[k] - p.origin_x) * p.inv_h, d.axis[0]);
-      const Axis<Real, N> b = Shape::axis((y[k] - p.origin_y) * p.inv_h, d.axis[1]);
+      const Axis<Real, N> a = Shape::axis((x[k] - p.origin_x) * p.inv_h, d.axis[0], inv_h);
+      const Axis<Real, N> b = Shape::axis((y[k] - p.origin_y) * p.inv_h, d.axis[1], inv_h);
       for (int i = 0; i < N; ++i) {
         sx[i][k] = a.s[i];
         sy[i][k] = b.s[i];
-        gx[i][k] = a.g[i] * inv_h;
-        gy[i][k] = b.g[i] * inv_h;
+        if constexpr (Gradient) {
+          gx[i][k] = a.g[i];
+          gy[i][k] = b.g[i];
+        }
       }
       ix[k] = a.base;
       iy[k] = b.base;

@@ -89,7 +89,7 @@ std::vector<Fragment> fragments(const State<Real, 2>& s) {
 
 template <class Real>
 std::vector<Fragment> find_fragments(SimulationOf<Real>& m) {
-  if (sort_due(m.state))
+  if (sort_due(m.plan, m.state))
     sort_particles(m.space, m.plan, m.state);
   if (m.plan.cracks) {
     hash_if_due(m);

@@ -39,6 +39,13 @@ RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const From& updated, c
   put<Real>(m.hy + k, handed.value[1]);
 }
 
+/// All that FLIP asks for.
+template <class Real>
+RIVEN_INLINE void set_acceleration(MotionLanes<Real>& m, int k, const GatheredFour<Real>& a) {
+  put<Real>(m.ax + k, a.value[0]);
+  put<Real>(m.ay + k, a.value[1]);
+}
+
 template <bool Gradient, bool High, class Real, class Shape, class Slots>
 RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
                                 Slots slots, bool high_gradient, MotionLanes<Real>& m, GradientLanes<Real>& g) {
@@ -145,7 +152,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 ask_ahead(stretch, first);
-                w.weigh(at, first);
+                w.template weigh<Stress>(at, first);
                 each_gathered<Stress>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
                   gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
                 });
@@ -177,21 +184,27 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const StepNumbers<Real> n = numbers(s, rule);
   const WatchTiles<Real, false, true, false> see(s.watch, rule.keep != 1, n.compare);
-  const bool together = in_cells(s);
+  const bool together = in_cells(s), by_acceleration = n.keep == Real(1) && !n.compare;
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
-      [p, at, extra, q, high, again, nx, n, together] RIVEN_KERNEL(
+      [p, at, extra, q, high, again, nx, n, together, by_acceleration] RIVEN_KERNEL(
           auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
-        MotionLanes<Real> motion;
+        MotionLanes<Real> motion{};
         GradientLanes<Real> none;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
-          w.weigh(at, first);
-          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
+          w.template weigh<false>(at, first);
+          const auto take = [&](int k, auto slots) RIVEN_LANE {
             gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
+          };
+          each_four(stretch, w, first, count, together, take, [&](int k) RIVEN_LANE {
+            if (by_acceleration)
+              set_acceleration(motion, k, gather_four<false, 2>(w, k, q + 2, nx));
+            else
+              take(k, FourTogether{});
           });
           update_velocity(p, first, count, motion, n, seen);
           const auto momentum = [&](long i) RIVEN_LANE {
@@ -210,7 +223,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
               [&](int k) RIVEN_LANE {
                 const long i = first + k;
                 const Quad<Real> A[4]{momentum(i), momentum(i + 1), momentum(i + 2), momentum(i + 3)};
-                scatter_four<false>(w, k, static_cast<const Real*>(nullptr), A, to);
+                scatter_four(w, k, A, to);
               });
         }
       });

@@ -39,7 +39,7 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
                          for (long first = begin; first < end; first += L) {
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            ask_ahead(stretch, first);
-                           w.weigh(at, first);
+                           w.template weigh<false>(at, first);
                            const auto momentum = [&](int k, auto slots) RIVEN_LANE {
                              return mass[first + k] * gather_from<false, 4>(w, k, term, nx, slots).value;
                            };
@@ -60,7 +60,7 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
                              each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
                                const Quad<Real> mv[4]{momentum(k, nullptr), momentum(k + 1, nullptr),
                                                       momentum(k + 2, nullptr), momentum(k + 3, nullptr)};
-                               scatter_four<false>(w, k, static_cast<const Real*>(nullptr), mv, to);
+                               scatter_four(w, k, mv, to);
                              });
                          }
                        });
@@ -83,7 +83,7 @@ void build_full_mass(const exec::Space& space, State<Real, 2>& s) {
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
-          w.weigh(at, first);
+          w.template weigh<false>(at, first);
           each_four(
               stretch, w, first, count, together,
               [&](int k, auto slots) RIVEN_LANE {

@@ -63,7 +63,7 @@ struct Inertia {
       body[k] = p.body[at[k]];
     }
     Block<Real, Shape> w;
-    w.weigh({x, y, l.origin.x, l.origin.y, 1 / l.h, {s.domains.data(), body, s.domains.size() == 1}}, 0);
+    w.template weigh<true>({x, y, l.origin.x, l.origin.y, 1 / l.h, {s.domains.data(), body, s.domains.size() == 1}}, 0);
     for (int k = 0; k < count; ++k) {
       const std::uint32_t word = s.fields.fields[at[k]];
       set_motion(k, word == 0 ? gather<true>(w, k, q, l.nx) : gather_across(w, k, q, l.nx, slots, word));

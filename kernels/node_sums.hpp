@@ -97,7 +97,7 @@ struct NodeSums {
     Block<Real, Shape> w;
     each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
       for (; first < last; first += exec::lanes) {
-        w.weigh(at, first);
+        w.template weigh<false>(at, first);
         for (int k = 0; k < exec::lanes && k < last - first; ++k) {
           const int p = first + k, a = I - w.ix[k], b = K - w.iy[k];
           if (static_cast<unsigned>(a) >= Shape::width || static_cast<unsigned>(b) >= Shape::width)

@@ -13,6 +13,8 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
+/// Without forces a node's mass is summed beside its momentum, q = [px py m 0]: that costs nothing, and an array of its
+/// own a quarter of the task.
 template <class Shape, bool Forces, class Real>
 void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   constexpr int L = exec::lanes;
@@ -27,58 +29,66 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
       {{p.x, p.y},
        {p.vx, p.vy, p.mass, Forces ? p.sxx : nullptr, Forces ? p.syy : nullptr, Forces ? p.sxy : nullptr},
        {q},
-       mass}};
+       Forces ? mass : nullptr}};
   const bool together = in_cells(s);
   const Real bx = Real(gravity.x), by = Real(gravity.y);
-  scatter_tiles<true>(space, "particle to grid", plan.scatter, tiles, mass, q, WatchNothing{},
-                      [p, at, extra, mass, q, bx, by, together] RIVEN_KERNEL(
-                          auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
-                        Block<Real, Shape> w;
-                        alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
-                        for (long first = begin; first < end; first += L) {
-                          const int count = static_cast<int>(std::min<long>(L, end - first));
-                          ask_ahead(stretch, first);
-                          w.weigh(at, first);
-                          exec::for_lanes(L, [&](int k) RIVEN_LANE {
-                            m[k] = p.mass[first + k];
-                            px[k] = m[k] * p.vx[first + k];
-                            py[k] = m[k] * p.vy[first + k];
-                            if constexpr (Forces) {
-                              txx[k] = -m[k] * p.sxx[first + k];
-                              tyy[k] = -m[k] * p.syy[first + k];
-                              txy[k] = -m[k] * p.sxy[first + k];
-                            }
-                          });
-                          const auto one = [&](int k, auto slots) RIVEN_LANE {
-                            Quad<Real> A{px[k], py[k], Real(0), Real(0)}, B{}, C{};
-                            if constexpr (Forces) {
-                              A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
-                              B = Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
-                              C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
-                            }
-                            if constexpr (std::is_pointer_v<decltype(slots)>)
-                              scatter_slots<true, Forces>(w, k, m[k], A, B, C, to, slots, extra, mass, q);
-                            else
-                              scatter<true, Forces>(w, k, m[k], A, B, C, to);
-                          };
-                          if constexpr (Forces)
-                            each_particle<Shape>(stretch, first, count, one);
-                          else
-                            each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
-                              Quad<Real> A[4];
-                              for (int p = 0; p < 4; ++p)
-                                A[p] = Quad<Real>{px[k + p], py[k + p], Real(0), Real(0)};
-                              scatter_four<true>(w, k, m + k, A, to);
+  scatter_tiles<Forces>(space, "particle to grid", plan.scatter, tiles, mass, q, WatchNothing{},
+                        [p, at, extra, mass, q, bx, by, together] RIVEN_KERNEL(
+                            auto stretch, long begin, long end, const NodeTarget<Real>& to, auto&) RIVEN_LANE {
+                          Block<Real, Shape> w;
+                          alignas(64) Real m[L], px[L], py[L], txx[L], tyy[L], txy[L];
+                          for (long first = begin; first < end; first += L) {
+                            const int count = static_cast<int>(std::min<long>(L, end - first));
+                            ask_ahead(stretch, first);
+                            w.template weigh<Forces>(at, first);
+                            exec::for_lanes(L, [&](int k) RIVEN_LANE {
+                              m[k] = p.mass[first + k];
+                              px[k] = m[k] * p.vx[first + k];
+                              py[k] = m[k] * p.vy[first + k];
+                              if constexpr (Forces) {
+                                txx[k] = -m[k] * p.sxx[first + k];
+                                tyy[k] = -m[k] * p.syy[first + k];
+                                txy[k] = -m[k] * p.sxy[first + k];
+                              }
                             });
-                        }
-                      });
+                            const auto one = [&](int k, auto slots) RIVEN_LANE {
+                              Quad<Real> A{px[k], py[k], m[k], Real(0)}, B{}, C{};
+                              if constexpr (Forces) {
+                                A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
+                                B = Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
+                                C = Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
+                              }
+                              if constexpr (std::is_pointer_v<decltype(slots)>)
+                                scatter_slots<Forces, Forces>(w, k, m[k], A, B, C, to, slots, extra, mass, q);
+                              else
+                                scatter<Forces, Forces>(w, k, m[k], A, B, C, to);
+                            };
+                            if constexpr (Forces)
+                              each_particle<Shape>(stretch, first, count, one);
+                            else
+                              each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
+                                Quad<Real> A[4];
+                                for (int p = 0; p < 4; ++p)
+                                  A[p] = Quad<Real>{px[k + p], py[k + p], m[k + p], Real(0)};
+                                scatter_four(w, k, A, to);
+                              });
+                          }
+                        });
+  if constexpr (!Forces)
+    exec::parallel_for(space, "particle to grid", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
+      mass[n] = q[4 * n + 2];
+      q[4 * n + 2] = 0;
+    });
 }
 
 }  // namespace
 
 template <class Real>
-void clear_grid(const exec::Space& space, State<Real, 2>& s) {
-  exec::parallel_zero(space, "clear grid", s.grid.mass, s.grid.q);
+void clear_grid(const exec::Space& space, State<Real, 2>& s, bool with_forces) {
+  if (with_forces)
+    exec::parallel_zero(space, "clear grid", s.grid.mass, s.grid.q);
+  else
+    exec::parallel_zero(space, "clear grid", s.grid.q);
 }
 
 template <class Real>
@@ -90,8 +100,8 @@ void particle_to_grid(const exec::Space& space, const Plan& plan, State<Real, 2>
   });
 }
 
-#define RIVEN_PARTICLE_TO_GRID(Real)                             \
-  template void clear_grid(const exec::Space&, State<Real, 2>&); \
+#define RIVEN_PARTICLE_TO_GRID(Real)                                   \
+  template void clear_grid(const exec::Space&, State<Real, 2>&, bool); \
   template void particle_to_grid(const exec::Space&, const Plan&, State<Real, 2>&, bool, Vec2);
 RIVEN_EACH_REAL(RIVEN_PARTICLE_TO_GRID)
 #undef RIVEN_PARTICLE_TO_GRID

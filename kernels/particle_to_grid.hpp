@@ -8,9 +8,9 @@ namespace riven {
 
 inline namespace RIVEN_SIDE {
 
-/// Zeroes masses and node groups of all slots.
+/// Zeroes node groups of all slots, and masses where forces come with them.
 template <class Real>
-void clear_grid(const exec::Space&, State<Real, 2>&);
+void clear_grid(const exec::Space&, State<Real, 2>&, bool with_forces);
 
 /// Masses and momenta; forces too unless they come after the stresses (`with_forces`).
 /// `gravity`: body force per mass, m/s^2.

@@ -45,6 +45,20 @@ RIVEN_INLINE void add_quad(Real* target, const Quad<Real>& value) {
   }
 }
 
+/// Adds the sum of a's numbers to p[0], of b's to p[1].
+template <class Real>
+RIVEN_INLINE void add_sums(Real* p, const Quad<Real>& a, const Quad<Real>& b) {
+#if defined(RIVEN_ON_DEVICE)
+  p[0] += a[0] + a[1] + a[2] + a[3];
+  p[1] += b[0] + b[1] + b[2] + b[3];
+#else
+  typedef Real Two __attribute__((vector_size(2 * sizeof(Real)), may_alias));
+  const Quad<Real> halves = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  *reinterpret_cast<Two*>(p) +=
+      __builtin_shufflevector(halves, halves, 0, 1) + __builtin_shufflevector(halves, halves, 2, 3);
+#endif
+}
+
 template <class Real>
 RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
   if (atomic)
@@ -94,10 +108,10 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
   }
 }
 
-/// The same as `scatter` without gradients for lanes k .. k + 3, which have the same nodes: sums of the four stay in
-/// registers, and nodes are read and written once. (With gradients it is no faster: there the multiply-adds count.)
-template <bool Mass, class Real, class Shape>
-RIVEN_INLINE void scatter_four(const Block<Real, Shape>& w, int k, const Real* mass, const Quad<Real> (&A)[4],
+/// Adds S A to each node of lanes k .. k + 3, which have the same nodes: sums of the four stay in registers, and nodes
+/// are read and written once. (With gradients of four node values it is no faster: there the multiply-adds count.)
+template <class Real, class Shape>
+RIVEN_INLINE void scatter_four(const Block<Real, Shape>& w, int k, const Quad<Real> (&A)[4],
                                const NodeTarget<Real>& to) {
   constexpr int N = Shape::width;
   const int first = to.at(w.ix[k], w.iy[k]);
@@ -117,18 +131,24 @@ RIVEN_INLINE void scatter_four(const Block<Real, Shape>& w, int k, const Real* m
       add_quad<Real>(q + 4 * i, sum);
     }
   }
-  if constexpr (Mass) {
-    Quad<Real> columns[4];
-#pragma GCC unroll 4
-    for (int p = 0; p < 4; ++p)
-      columns[p] = w.columns(k + p);
+}
+
+/// Adds to the last two values of each node of lanes k .. k + 3, which have the same nodes,  S f + dS/dx X + dS/dy Y.
+/// A vector holds one number of all four; `f`, `X` and `Y` are those of the two values.
+template <class Real, class Shape>
+RIVEN_INLINE void scatter_forces_of_four(const Block<Real, Shape>& w, int k, const Quad<Real> (&f)[2],
+                                         const Quad<Real> (&X)[2], const Quad<Real> (&Y)[2],
+                                         const NodeTarget<Real>& to) {
+  constexpr int N = Shape::width;
+  Real* q = to.q + 4L * to.at(w.ix[k], w.iy[k]) + 2;
 #pragma GCC unroll 3
-    for (int j = 0; j < N; ++j) {
-      Quad<Real> sum = (mass[0] * w.sy[j][k]) * columns[0];
+  for (int j = 0; j < N; ++j, q += 4L * to.stride) {
+    const Quad<Real> sy = four_at(w.sy[j] + k), gy = four_at(w.gy[j] + k);
+    const Quad<Real> row[2] = {sy * f[0] + gy * Y[0], sy * f[1] + gy * Y[1]}, across[2] = {sy * X[0], sy * X[1]};
 #pragma GCC unroll 3
-      for (int p = 1; p < 4; ++p)
-        sum += (mass[p] * w.sy[j][k + p]) * columns[p];
-      add_row<N>(to.mass + first + static_cast<long>(j) * to.stride, sum);
+    for (int i = 0; i < N; ++i) {
+      const Quad<Real> sx = four_at(w.sx[i] + k), gx = four_at(w.gx[i] + k);
+      add_sums(q + 4 * i, sx * row[0] + gx * across[0], sx * row[1] + gx * across[1]);
     }
   }
 }

@@ -11,7 +11,7 @@ inline namespace RIVEN_SIDE {
 /// True when some particle may have drifted further from its sorted cell than the tiles' margin allows, or so far that
 /// a sort pays.
 template <class Real>
-bool sort_due(const State<Real, 2>&);
+bool sort_due(const Plan&, const State<Real, 2>&);
 
 /// Finds the places of the particles of each id, where loads go by them.
 void find_loaded(const exec::Space&, const exec::Array<int>& ids, Loads&);

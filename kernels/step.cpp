@@ -52,7 +52,7 @@ void set_time_step(SimulationOf<Real>& m) {
 
 template <class Real>
 void sort_if_due(SimulationOf<Real>& m) {
-  if (sort_due(m.state))
+  if (sort_due(m.plan, m.state))
     sort_particles(m.space, m.plan, m.state);
 }
 
@@ -110,7 +110,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(true, "sort particles", "", sort_if_due<Real>);
   add(p.cracks, "hash cracks", "cracks", hash_if_due<Real>);
   add(p.cracks, "determine fields", "cracks", find_fields<Real>);
-  add(true, "clear grid", "", [](Simulation& m) { clear_grid(m.space, m.state); });
+  add(true, "clear grid", "", [before](Simulation& m) { clear_grid(m.space, m.state, !before); });
   add(true, "particle to grid", "",
       [before](Simulation& m) { particle_to_grid(m.space, m.plan, m.state, !before, m.gravity()); });
   add_impulses("forget impulses", [](Simulation& m) { clear_impulses(m.state.fields, m.impulses); });

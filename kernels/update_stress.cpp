@@ -60,21 +60,29 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
-          w.weigh(at, first);
+          w.template weigh<true>(at, first);
           each_gathered<true>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
             gradient.set(k, gather_from<true, 0>(w, k, q, nx, slots));
           });
           update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
           stress.template take<Averaged>(p, first, count, gradient, step);
-          each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-            const Real m = p.mass[first + k];
-            const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
-                C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
-            if constexpr (std::is_pointer_v<decltype(slots)>)
-              scatter_slots<false, true>(w, k, Real(0), A, B, C, to, slots, extra, static_cast<Real*>(nullptr), q);
-            else
-              scatter<false, true>(w, k, Real(0), A, B, C, to);
-          });
+          each_four(
+              stretch, w, first, count, together,
+              [&](int k, auto slots) RIVEN_LANE {
+                const Real m = p.mass[first + k];
+                const Quad<Real> A{Real(0), Real(0), m * bx, m * by}, B{Real(0), Real(0), stress.xx[k], stress.yx[k]},
+                    C{Real(0), Real(0), stress.xy[k], stress.yy[k]};
+                if constexpr (std::is_pointer_v<decltype(slots)>)
+                  scatter_slots<false, true>(w, k, Real(0), A, B, C, to, slots, extra, static_cast<Real*>(nullptr), q);
+                else
+                  scatter<false, true>(w, k, Real(0), A, B, C, to);
+              },
+              [&](int k) RIVEN_LANE {
+                const Quad<Real> m = four_at(p.mass + first + k), f[2]{bx * m, by * m};
+                const Quad<Real> X[2]{four_at(stress.xx + k), four_at(stress.yx + k)};
+                const Quad<Real> Y[2]{four_at(stress.xy + k), four_at(stress.yy + k)};
+                scatter_forces_of_four(w, k, f, X, Y, to);
+              });
         }
       });
   watch_J(s);
@@ -105,7 +113,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 ask_ahead(stretch, first);
-                w.weigh(at, first);
+                w.template weigh<true>(at, first);
                 each_gathered<true>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
                   const auto g = gather_from<true, 4>(w, k, again, nx, slots);
                   gradient.set(k, g);

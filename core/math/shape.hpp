@@ -2,7 +2,8 @@
 // an axis is the shape function's own property, and so is the neighbour count that follows from it.
 //
 // X is a particle's position in cells from node 0, in double so that its place in its cell is sharp whatever Real is.
-// `axis` gives the first node it sees, the values s and the gradients g (per cell) of its `width` nodes:
+// `axis` gives the first node it sees, the values s and the gradients g of its `width` nodes, per cell or, where it is
+// told how many cells there are to a unit of length, per that:
 //   linear    N(r) = 1 - |r|                                          (Sulsky et al. 1994)
 //   uGIMP     the hat function averaged over the particle's domain    (Bardenhagen and Kober 2004, eq. 36)
 //   B-spline  quadratic, node-centred; the ghost node outside a wall is folded onto the two nodes inside by linear
@@ -43,10 +44,10 @@ struct Linear {
   /// The cell by which particles are sorted: the first node that they see.
   static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X)); }
   template <class Real>
-  static RIVEN_INLINE Axis<Real, 2> axis(double X, const AxisSetting<Real>&) {
+  static RIVEN_INLINE Axis<Real, 2> axis(double X, const AxisSetting<Real>&, Real cells = Real(1)) {
     const double f = std::floor(X);
     const Real least = least_weight<Real>, r = std::max(Real(X - f), least);  // a copy: std::max takes an address
-    return {static_cast<int>(f), {Real(1) - r, r}, {Real(-1), Real(1)}};
+    return {static_cast<int>(f), {Real(1) - r, r}, {-cells, cells}};
   }
   /// How far X may move, in cells, before it leaves its cell.
   static RIVEN_INLINE double to_next_cell(double X) {
@@ -66,15 +67,15 @@ struct UGimp {
 
   static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a) {
+  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a, Real cells = Real(1)) {
     const double near = std::floor(X + 0.5);
     const Real r = Real(X - near), l = a.half;
     const Real c = std::min(std::max(r, -l), l);
     const Real below = l - c, above = l + c;
     const Real s0 = below * below * a.inv_4half + std::max(Real(0), c - r);
     const Real s2 = above * above * a.inv_4half + std::max(Real(0), r - c);
-    const Real g0 = Real(-2) * below * a.inv_4half, g2 = Real(2) * above * a.inv_4half;
-    return {static_cast<int>(near) - 1, {s0, Real(1) - s0 - s2, s2}, {g0, -g0 - g2, g2}};
+    const Real slope = Real(2) * a.inv_4half * cells, fall = slope * below, rise = slope * above;
+    return {static_cast<int>(near) - 1, {s0, Real(1) - s0 - s2, s2}, {-fall, fall - rise, rise}};
   }
   static RIVEN_INLINE double to_next_cell(double X) { return 0.5 - std::abs(X - std::floor(X + 0.5)); }
   template <class Real>
@@ -90,13 +91,13 @@ struct BSpline {
 
   static RIVEN_INLINE int cell(double X) { return static_cast<int>(std::floor(X + 0.5)); }
   template <class Real>
-  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a) {
+  static RIVEN_INLINE Axis<Real, 3> axis(double X, const AxisSetting<Real>& a, Real cells = Real(1)) {
     const double near = std::floor(X + 0.5);
     const Real r = Real(X - near);
     const int node = static_cast<int>(near);
     const Real below = Real(0.5) - r, above = Real(0.5) + r;
     Real s0 = Real(0.5) * below * below, s2 = Real(0.5) * above * above, s1 = Real(1) - s0 - s2;
-    Real g0 = -below, g2 = above, g1 = -g0 - g2;
+    const Real fall = cells * below, rise = cells * above;
     // at a wall the functions become linear in the outer half cell; a particle that has slipped past the wall
     // keeps non-negative masses by being taken at the wall
     const bool low = node <= a.wall_lower, high = node >= a.wall_upper;
@@ -105,9 +106,9 @@ struct BSpline {
     s0 = low ? Real(0) : high ? out : s0;
     s1 = low ? Real(1) - in : high ? Real(1) - out : s1;
     s2 = low ? in : high ? Real(0) : s2;
-    g0 = low ? Real(0) : high ? Real(-1) : g0;
-    g1 = low ? Real(-1) : high ? Real(1) : g1;
-    g2 = low ? Real(1) : high ? Real(0) : g2;
+    const Real g0 = low ? Real(0) : high ? -cells : -fall;
+    const Real g1 = low ? -cells : high ? cells : fall - rise;
+    const Real g2 = low ? cells : high ? Real(0) : rise;
     return {node - 1, {s0, s1, s2}, {g0, g1, g2}};
   }
   static RIVEN_INLINE double to_next_cell(double X) { return 0.5 - std::abs(X - std::floor(X + 0.5)); }

@@ -25,7 +25,7 @@ struct Square {
         p.v[axis][i] = velocity(random);
     hash_if_due(m);
     find_fields(m);
-    clear_grid(m.space, m.state);
+    clear_grid(m.space, m.state, true);
     particle_to_grid(m.space, m.plan, m.state, true, {});
     list_bridges(space, m.state, bridges);
     clear_impulses(m.state.fields, m.impulses);

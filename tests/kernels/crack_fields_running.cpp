@@ -54,8 +54,8 @@ void check(StressUpdate update) {
   for (int step = 0; step < 400; ++step) {
     m.step();
     auto& s = m.state;
-    sorts += sort_due(s);
-    if (sort_due(s) || hash_due(serial, s.grid.lattice, s.cracks, s.fields))
+    sorts += sort_due(m.plan, s);
+    if (sort_due(m.plan, s) || hash_due(serial, s.grid.lattice, s.cracks, s.fields))
       continue;
     CrackFields kept = s.fields, fresh;
     determine_fields<UGimp>(serial, p, s.domains.data(), s.grid.lattice, s.cracks, kept, s.watch.tile_move.data());

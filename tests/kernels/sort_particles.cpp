@@ -6,8 +6,12 @@
 namespace riven {
 namespace {
 
-/// The state of particles that have drifted by so many cells in so many steps, moving by a thousandth of a cell a step.
-bool due(double cells, long steps) {
+/// Whether particles that have drifted by so many cells in so many steps, moving by a thousandth of a cell a step, are
+/// to be sorted.
+bool due(double cells, long steps, StressUpdate update = StressUpdate::usl, bool cracks = false) {
+  Plan plan{};
+  plan.update = update;
+  plan.cracks = cracks;
   State<double, 2> s;
   s.grid.lattice.h = 0.5;
   s.particles.tiles.start.resize(2);
@@ -15,7 +19,7 @@ bool due(double cells, long steps) {
   s.watch.drift = cells * s.grid.lattice.h;
   s.watch.sorted_at = 100;
   s.clock.step = 100 + steps;
-  return sort_due(s);
+  return sort_due(plan, s);
 }
 
 TEST(SortParticles, IsDueBeforeAnyLeavesTheReachOfItsTile) {
@@ -27,6 +31,14 @@ TEST(SortParticles, PaysEarlierWhereParticlesAreSlow) {
   EXPECT_FALSE(due(0.3, 10));
   EXPECT_TRUE(due(0.3, 100));
   EXPECT_FALSE(due(0.2, 100000));  // little to gain yet
+}
+
+TEST(SortParticles, PaysSoonWhereManyPassesGain) {
+  EXPECT_TRUE(due(0.3, 10, StressUpdate::usavg));
+  EXPECT_FALSE(due(0.3, 7, StressUpdate::usavg));
+  EXPECT_FALSE(due(0.2, 10, StressUpdate::usavg));
+  EXPECT_FALSE(due(0.3, 10, StressUpdate::usavg, true));  // crossings would be found anew
+  EXPECT_FALSE(due(0.3, 10, StressUpdate::musl));
 }
 
 }  // namespace

@@ -281,7 +281,10 @@ TEST(StopsOfTheProgram, LeaveFramesHistoryAndSummaryBehind) {
   EXPECT_FALSE(sample::text_of(std::filesystem::path(out) / "history.csv").empty());
   const auto summary = nlohmann::json::parse(sample::text_of(std::filesystem::path(out) / "summary.json"));
   EXPECT_EQ(summary.at("status"), "unstable");
-  EXPECT_NEAR(summary.at("time").get<double>(), 0.05 / 3, 0.003);
+  // the foremost particles stand a quarter of a cell behind the block's edge; they are outside a cell and a half behind
+  // the wall, which is seen when they are sorted again, within a cell
+  const double cell = 5e-3, outside = (0.05 + 1.75 * cell) / 3, sort = cell / 3;
+  EXPECT_NEAR(summary.at("time").get<double>(), outside + sort / 2, 0.51 * sort);
 }
 
 TEST(StopsOfTheProgram, UnstableTimeStepsEndWithExitThree) {

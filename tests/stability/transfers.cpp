@@ -48,7 +48,7 @@ void set_stresses(Simulation& m, const Eigen::VectorXd& all) {
 
 /// The forces on all nodes that the stresses make.
 Eigen::VectorXd forces(Simulation& m) {
-  clear_grid(m.space, m.state);
+  clear_grid(m.space, m.state, true);
   particle_to_grid(m.space, m.plan, m.state, true, {});
   Eigen::VectorXd f(2 * m.state.grid.slots());
   for (int n = 0; n < m.state.grid.slots(); ++n)
