@@ -10,10 +10,10 @@
 namespace riven::perf {
 
 /// What `riven-perf kernels --filter '^large block/whole step'` counts for one step of one particle in the block
-/// without cracks (FLIP, USL, 1,440,000 particles): 276.0 flops in particle to grid, 322.6 in grid to particle, 3.6 a
+/// without cracks (FLIP, USL, 1,440,000 particles): 266.3 flops in particle to grid, 311.8 in grid to particle, 3.6 a
 /// particle in advance grid. Shape functions that both passes compute, lanes without a particle, and branches of which
 /// each lane keeps one are among them.
-constexpr double flops_per_particle_step = 602;
+constexpr double flops_per_particle_step = 582;
 /// And bytes of the arrays that this step reads from and writes to memory, with a last-level cache of 32 MiB: 105 in
 /// particle to grid and 151 in grid to particle, which pass over the particles one after the other, and 16 of the grid.
 constexpr double bytes_per_particle_step = 272;
