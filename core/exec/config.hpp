@@ -74,11 +74,11 @@ inline constexpr int lanes = block;
 /// Alignment of what holds one number for each lane.
 inline constexpr int line = lanes > 1 ? 64 : alignof(double);
 
-/// body(k) for k in [0, count); vectorised when the block is full.
+/// body(k) for k in [0, count), vectorised; a full block as a loop whose length the compiler knows.
 /// The body must be free of branches that the compiler cannot turn into blends.
 template <class Body>
 RIVEN_INLINE void for_lanes(int count, Body&& body) {
-  if (count == lanes) {
+  if (count == lanes) {  // NOLINT(bugprone-branch-clone): the loops differ in what is known of their length
 #if !defined(__CUDACC__)
 #pragma omp simd
 #endif
