@@ -45,26 +45,26 @@ RIVEN_INLINE void add_quad(Real* target, const Quad<Real>& value) {
   }
 }
 
-/// Adds the sum of a's numbers to p[0], of b's to p[1].
-template <class Real>
-RIVEN_INLINE void add_sums(Real* p, const Quad<Real>& a, const Quad<Real>& b) {
-#if defined(RIVEN_ON_DEVICE)
-  p[0] += a[0] + a[1] + a[2] + a[3];
-  p[1] += b[0] + b[1] + b[2] + b[3];
-#else
-  typedef Real Two __attribute__((vector_size(2 * sizeof(Real)), may_alias));
-  const Quad<Real> halves = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  *reinterpret_cast<Two*>(p) +=
-      __builtin_shufflevector(halves, halves, 0, 1) + __builtin_shufflevector(halves, halves, 2, 3);
-#endif
-}
-
 template <class Real>
 RIVEN_INLINE void add(Real& target, Real value, bool atomic) {
   if (atomic)
     exec::atomic_add(target, value);
   else
     target += value;
+}
+
+/// Adds to two values of a tile's sums: the sum of a's numbers, and that of b's.
+template <class Real>
+RIVEN_INLINE void add_sums(Real* p, const Quad<Real>& a, const Quad<Real>& b) {
+#if defined(RIVEN_ON_DEVICE)
+  add(p[0], a[0] + a[1] + a[2] + a[3], in_team);
+  add(p[1], b[0] + b[1] + b[2] + b[3], in_team);
+#else
+  typedef Real Two __attribute__((vector_size(2 * sizeof(Real)), may_alias));
+  const Quad<Real> halves = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  *reinterpret_cast<Two*>(p) +=
+      __builtin_shufflevector(halves, halves, 0, 1) + __builtin_shufflevector(halves, halves, 2, 3);
+#endif
 }
 
 /// Adds to N nodes of a row. Three nodes are taken as four, the last with nothing added: it belongs to the tile's reach
