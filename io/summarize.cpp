@@ -36,7 +36,7 @@ std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
   say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
   say("a J contour leaves the solid however small", j.unsound, j.place[2]);
-  say("a bend less than a cell from the tip is sharp or has faces pressed together, and lies in its J contour", j.bent,
+  say("a bend next to the tip is sharp or has faces pressed together: J and K are not resolved there", j.bent,
       j.place[3]);
   say("another crack crosses less than 1.5 cells behind a tip: J and K are not resolved there", j.cut, j.place[5]);
   say("a crack grew to where its J contour takes in another material or thickness: J and K are no longer those of its "

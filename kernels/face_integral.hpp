@@ -105,7 +105,7 @@ class FaceIntegral {
     // tractions of laws are counted already, however little the faces have opened
     const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
-    see(!off_line || (task_.cut && !loaded && !meeting.holds));
+    see(!comes_back(s) && (!off_line || (task_.cut && !loaded && !meeting.holds)));
     task_.sums.steep = task_.sums.steep || off_line;
     if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
@@ -130,6 +130,9 @@ class FaceIntegral {
   /// solid has a corner of 270 degrees these rise as r^-0.91: what they add along the faces lies within a fraction of a
   /// cell.
   void note_bends(const std::vector<Segment>& segments) {
+    for (const Segment& s : segments)
+      if (s.crack == task_.crack && comes_back(s))
+        task_.sums.bends.insert(task_.sums.bends.end(), {view_.plane[s.k], view_.plane[s.k + 1]});
     const Segment* first = nullptr;
     for (const Segment& s : segments)
       if (is_bent(s) && (first == nullptr || (s.k > first->k) == task_.last))
@@ -139,9 +142,15 @@ class FaceIntegral {
     double far = 0;
     for (Segment at = *first; !shut_ && far < pressed_within * h_ && behind(at); far += at.length)
       shut_ = meet(at, touching).holds;
+    task_.sums.pressed = shut_;
     for (const Segment& s : segments)
       if (is_bent(s) && (shut_ || is_sharp(s)))
         task_.sums.bends.push_back(view_.plane[s.k + int{task_.last}]);
+  }
+
+  /// Does it lie where the tip's crack has come back?
+  bool comes_back(const Segment& s) const {
+    return task_.last ? s.k < task_.runs_away_until : s.k >= task_.runs_away_until;
   }
 
   bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > BranchCut::bent; }
@@ -227,6 +236,7 @@ class FaceIntegral {
       return *near_tip_;
     Segment at = clear_of_tip(s, near);
     near_tip_ = meet(at, shut);
+    task_.sums.shut = near_tip_->holds && meet(clear_of_tip(s, std::min(1.0, near)), shut).holds;
     const Vec2 n = at.normal;
     const double pressure = dot(near_tip_->traction, n);
     double sum = pressure;
@@ -239,10 +249,18 @@ class FaceIntegral {
     return *near_tip_;
   }
 
-  /// Cells from the tip to the middle between it and the other one, or to the other end.
+  /// Cells from the tip to the middle between it and the other one, or a bend, or to the other end.
   double half_length() const {
-    const double length = norm(view_.plane[cracks_.end_point(task_.crack, !task_.last)] - task_.domain.tip) / h_;
-    return cracks_.is_open(task_.crack, !task_.last) ? 0.5 * length : length;
+    const int other = cracks_.end_point(task_.crack, !task_.last), step = task_.last ? -1 : 1;
+    int k = cracks_.end_point(task_.crack, task_.last);
+    const auto in_line = [&](int to) {
+      const Vec2 along = view_.plane[to] - view_.plane[k];
+      return std::fabs(cross(along, task_.heading)) <= BranchCut::bent * norm(along);
+    };
+    while (k != other && in_line(k + step))
+      k += step;
+    const double length = norm(view_.plane[k] - task_.domain.tip) / h_;
+    return k != other || cracks_.is_open(task_.crack, !task_.last) ? 0.5 * length : length;
   }
 
   void add_faces(const Segment& s, const Meeting& meeting) {

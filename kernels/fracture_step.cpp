@@ -99,7 +99,7 @@ class JSearch {
   void note(const DueTip& d, const TipTask& task) {
     if (d.near || d.to_leave_bends)
       return;
-    if (d.bend_in_cell)
+    if (d.bend_in_cell || d.pressed_bend)
       count(m_.fracture.bent, m_.fracture.place[3], task.domain.tip);
     if (d.in_cell)
       count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
@@ -189,7 +189,7 @@ class JSearch {
   /// Tips that a contour cannot part share the field around them: each has a part of its J, and K of the root of that.
   static StressIntensity interaction(const DueTip& d, const TipTask& task) {
     const double of_each = task.solid->mu / std::sqrt(d.acting);
-    return {of_each * task.sums.interaction[0] / task.running.A_I,
+    return {task.sums.shut ? 0 : of_each * task.sums.interaction[0] / task.running.A_I,
             of_each * task.sums.interaction[1] / task.running.A_II};
   }
 

@@ -15,8 +15,8 @@ struct FractureReport {
   long unsound = 0;   ///< it leaves the solid however small
   long evaluations = 0;
   long crossed = 0;  ///< evaluations with another crack in the domain
-  long bent = 0;     ///< a bend that is sharp, or has faces pressed together behind it, was too near for a contour that
-                     ///< leaves it out
+  long bent = 0;     ///< a bend that is sharp, or has pressed faces next to it, was too near for what a contour that
+                     ///< leaves it out finds to be right
   long mixed = 0;    ///< a tip grew to where its contour takes in another material or thickness
   long cut = 0;      ///< another crack crossed the tip's too near to it
   Vec2 place[6];

@@ -36,11 +36,13 @@ struct TipSums {
   double filled[4] = {0, 0, 0, 0};  ///< share of each edge that lies in the solid
   double whole = std::numeric_limits<double>::infinity();  ///< m, length of the crack's faces behind the tip that no
                                                            ///< other crack cuts, if that is known to be short
+  bool shut = false;                                       ///< faces next to the tip are pressed together
   bool crossed = false;                                    ///< another crack lies in the domain
   bool steep = false;       ///< energies along faces there are steeper than the grid resolves
   bool loaded = false;      ///< faces of the tip's own crack there bear tractions
   bool blind = false;       ///< faces there bear what the interaction integral does not see, or it cannot follow them
   std::vector<Vec2> bends;  ///< of its points where it is not, those that the contour should leave out
+  bool pressed = false;     ///< there, as faces are pressed together next to them
 };
 
 /// A tip to sum around.
@@ -48,6 +50,7 @@ struct TipTask {
   JDomain domain;
   std::optional<JDomain> core;   ///< within the domain, where what inertia adds is left out
   std::optional<BranchCut> cut;  ///< of the known fields, where the crack is not in line with its tip
+  int runs_away_until = 0;       ///< see branch_cut.hpp
   bool passes = false;           ///< the crack passes out of the domain
   int crack = 0;
   bool last = true;         ///< which end of the crack it is

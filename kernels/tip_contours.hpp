@@ -33,6 +33,7 @@ struct DueTip {
   bool adapted = false;         ///< it leaves out another tip, or a bend
   bool in_cell = false;         ///< a tip is too near for that
   bool bend_in_cell = false;    ///< or a bend
+  bool pressed_bend = false;    ///< or one with pressed faces, for J and K to be resolved
   double acting = 1;            ///< tips that it takes for this one: itself, and those too near that run its way
   bool settled = false;         ///< all of its edges lie in the solid
   bool to_draw_in = false;      ///< some do not, and have room to be drawn in

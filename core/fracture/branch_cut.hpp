@@ -16,38 +16,43 @@
 
 namespace riven {
 
+/// The point of a tip's crack to which it runs away from the tip: the first that is `far` (m) from it, the last that is
+/// farther than those before, or the other end. Beyond it the crack may come back, beside which no sign is known.
+inline int runs_away_until(const Cracks& cracks, const Tip& tip, double far) {
+  const int step = tip.last ? -1 : 1, other = cracks.end_point(tip.crack, !tip.last);
+  int k = cracks.end_point(tip.crack, tip.last);
+  const Vec2 x = cracks.plane[k];
+  double distance = 0;
+  while (k != other && distance < far * far) {
+    const Vec2 r = cracks.plane[k + step] - x;
+    if (!(dot(r, r) > distance))
+      break;
+    distance = dot(r, r);
+    k += step;
+  }
+  return k;
+}
+
 class BranchCut {
  public:
-  /// That of a tip whose crack, up to `far` (m) from it, is not in line with it; none where it is, or where it comes
-  /// back towards the tip, beside which no sign is known.
-  static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, double far) {
-    const int step = tip.last ? -1 : 1, other = cracks.end_point(tip.crack, !tip.last);
-    const int end = cracks.end_point(tip.crack, tip.last);
+  /// That of a tip whose crack is not in line with it up to a point that it runs away to; none where it is. Farther
+  /// away the cut goes on straight away from the tip.
+  static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, int until) {
+    const int step = tip.last ? -1 : 1, end = cracks.end_point(tip.crack, tip.last);
     const Vec2 x = cracks.plane[end];
     bool bends = false;
-    double distance = 0;
-    int k = end;
-    while (k != other && distance < far * far) {
-      const Vec2 segment = cracks.plane[k] - cracks.plane[k + step], r = cracks.plane[k + step] - x;
-      const double before = distance, off = cross(segment, heading);
-      distance = dot(r, r);
-      if (!(distance > before))
-        return std::nullopt;
+    for (int k = end; k != until; k += step) {
+      const Vec2 segment = cracks.plane[k] - cracks.plane[k + step];
+      const double off = cross(segment, heading);
       bends = bends || off * off > curved * curved * dot(segment, segment);
-      k += step;
     }
     if (!bends)
       return std::nullopt;
     BranchCut cut;
-    for (int at = end;; at += step) {
-      const Vec2 r = cracks.plane[at] - x;
-      const Point p{{dot(r, heading), cross(heading, r)}, norm(r)};
-      cut.points_.push_back(p);
-      if (p.distance > 0)
-        cut.ahead_ = std::max(cut.ahead_, p.r.x / p.distance);
-      if (at == k)
-        return cut;
-    }
+    for (int k = end; k != until + step; k += step)
+      cut.add(cracks.plane[k] - x, heading);
+    cut.add(2 * (cracks.plane[until] - x), heading);
+    return cut;
   }
 
   /// The sign of the fields at a place beside the crack, in the tip's frame (x along its heading).
@@ -72,6 +77,13 @@ class BranchCut {
     Vec2 r;  ///< in the tip's frame
     double distance;
   };
+
+  void add(Vec2 from_tip, Vec2 heading) {
+    const Point p{{dot(from_tip, heading), cross(heading, from_tip)}, norm(from_tip)};
+    points_.push_back(p);
+    if (p.distance > 0)
+      ahead_ = std::max(ahead_, p.r.x / p.distance);
+  }
 
   /// Where the crack is as far from the tip.
   Vec2 at(double distance) const {

@@ -23,7 +23,7 @@ Cracks one_crack(std::vector<Vec2> points) {
 std::optional<BranchCut> cut_of(const Cracks& cracks, bool last, double far = 6) {
   Tip tip;
   tip.last = last;
-  return BranchCut::along(cracks, tip, heading_of(cracks, tip), far);
+  return BranchCut::along(cracks, tip, heading_of(cracks, tip), runs_away_until(cracks, tip, far));
 }
 
 TEST(BranchCut, IsThatOfTheFieldsThemselvesBehindAStraightTip) {
@@ -32,8 +32,23 @@ TEST(BranchCut, IsThatOfTheFieldsThemselvesBehindAStraightTip) {
   EXPECT_TRUE(cut_of(one_crack({{-10, 5}, {-3, 0}, {0, 0}}), true));
 }
 
-TEST(BranchCut, IsNotKnownWhereTheCrackComesBack) {
-  EXPECT_FALSE(cut_of(one_crack({{-2, 3}, {-3, 0.5}, {-4, 0}, {0, 0}}), true));
+TEST(BranchCut, FollowsTheCrackUpToWhereItComesBack) {
+  const std::vector<Vec2> hook{{-2, 3}, {-3, 2}, {-4, 0}, {0, 0}};
+  const Cracks cracks = one_crack(hook);
+  for (const bool last : {true, false}) {
+    Tip tip;
+    tip.last = last;
+    const double far = last ? 10 : 1.5;  // the first tip's crack has run far enough before it turns
+    const Vec2 until = cracks.plane[runs_away_until(cracks, tip, far)];
+    EXPECT_NEAR(norm(until - (last ? Vec2{-4, 0} : Vec2{-3, 2})), 0, 0.5) << last;
+  }
+  const auto cut = cut_of(cracks, true, 10);
+  EXPECT_FALSE(cut) << "straight up to there";
+  const auto bent = cut_of(one_crack({{-1, 4}, {-5, 4}, {-4, 1}, {-3, 0}, {0, 0}}), true, 10);
+  ASSERT_TRUE(bent);
+  const double far = norm(Vec2{-5, 4});
+  EXPECT_EQ(bent->sign(1.5 * Vec2{-5, 4} + Vec2{0.1, 0.2}), 1) << "straight on from where it comes back, at " << far;
+  EXPECT_EQ(bent->sign(1.5 * Vec2{-5, 4} - Vec2{0.1, 0.2}), -1);
 }
 
 // Going round the tip from straight ahead to a place, without a step over the crack, the half angle goes on; the fields

@@ -96,31 +96,71 @@ CrackLine kinked(double cells, double turn) {
   return crack("kinked", {-end - arm, -end, end, end + arm});
 }
 
+/// Parts of so many cells that a crack goes on by at its last end, each in a direction of so many degrees.
+CrackLine with_tail(std::vector<std::pair<double, double>> parts) {
+  std::vector<Vec2> points{{-half, 0}, {half, 0}};
+  for (const auto [cells, direction] : parts)
+    points.push_back(points.back() + cells * cell * Vec2{std::cos(direction * degree), std::sin(direction * degree)});
+  return crack("bent", points);
+}
+
+/// A bent crack under a pull, with its references.
+struct Bent {
+  const char* what;
+  CrackLine line;
+  Pull pull;
+  double angle;                 ///< degrees, of the grid
+  double phase, over_straight;  ///< K over that of the straight crack
+};
+
+void expect_J_and_K(const Bent& bent, std::initializer_list<int> contours) {
+  const Pull pull{bent.pull.along * MPa, bent.pull.across * MPa, bent.pull.shear * MPa};
+  const double angle = bent.angle * degree;
+  const Tip straight = tip_of(disk_under(pull, angle, {crack("straight", {{-half, 0}, {half, 0}})}), 8);
+  for (const int contour : contours) {
+    const Tip tip = tip_of(disk_under(pull, angle, {bent.line}), contour);
+    const StressIntensity K = K_of(tip);
+    const double over = size(K) / size(K_of(straight)), over_by_J = std::sqrt(tip.J / straight.J);
+    const auto what = fmt::format("{}, contour of {}", bent.what, contour);
+    gates::report(what + ": atan K_II / K_I less its reference, degrees", phase(K) - bent.phase, "1.5");
+    gates::report(what + ": K over that of the straight crack, over its reference, less 1",
+                  over / bent.over_straight - 1, "0.03");
+    gates::report(what + ": the same by the root of J", over_by_J / bent.over_straight - 1, "0.03");
+    EXPECT_NEAR(phase(K), bent.phase, 1.5);
+    EXPECT_NEAR(over, bent.over_straight, 0.03 * bent.over_straight);
+    EXPECT_NEAR(over_by_J, bent.over_straight, 0.03 * bent.over_straight);
+  }
+}
+
 // By the opening of the faces, across the bend, the phases are off by 7, 10, 5 and 5 degrees, and J is as if K were
 // 0.81 and 0.96 of what it is in the first two.
 TEST(BentCracks, HaveTheirJAndK) {
-  struct Case {
-    Pull pull;
-    double turn, cells, angle, phase, over_straight;  ///< K over that of the crack without arms
-  };
-  for (const Case& c : {Case{{0, 0, 5}, -53, 0.6, 17, 19.95, 1.202}, Case{{5, 5, 5}, -53, 2, 17, 0.3, 1.458},
-                        Case{{5, 5, 0}, 30, 1.5, 0, 12.6, 1.027}}) {
-    const Pull pull{c.pull.along * MPa, c.pull.across * MPa, c.pull.shear * MPa};
-    const double angle = c.angle * degree;
-    const Tip straight = tip_of(disk_under(pull, angle, {crack("straight", {{-half, 0}, {half, 0}})}), 8);
-    for (const int contour : {4, 8}) {
-      const Tip tip = tip_of(disk_under(pull, angle, {kinked(c.cells, c.turn)}), contour);
-      const StressIntensity K = K_of(tip);
-      const double over = size(K) / size(K_of(straight)), over_by_J = std::sqrt(tip.J / straight.J);
-      const auto what = fmt::format("arm of {} cells, contour of {}", c.cells, contour);
-      gates::report(what + ": atan K_II / K_I less its reference, degrees", phase(K) - c.phase, "1.5");
-      gates::report(what + ": K over that of the straight crack, over its reference, less 1",
-                    over / c.over_straight - 1, "0.03");
-      gates::report(what + ": the same by the root of J", over_by_J / c.over_straight - 1, "0.03");
-      EXPECT_NEAR(phase(K), c.phase, 1.5);
-      EXPECT_NEAR(over, c.over_straight, 0.03 * c.over_straight);
-      EXPECT_NEAR(over_by_J, c.over_straight, 0.03 * c.over_straight);
-    }
+  expect_J_and_K({"arm of 0.6 cells", kinked(0.6, -53), {0, 0, 5}, 17, 19.95, 1.202}, {4, 8});
+  expect_J_and_K({"arm of 2 cells", kinked(2, -53), {5, 5, 5}, 17, 0.3, 1.458}, {4, 8});
+  expect_J_and_K({"arm of 1.5 cells", kinked(1.5, 30), {5, 5, 0}, 0, 12.6, 1.027}, {4, 8});
+}
+
+// The crack comes back towards its tip within the larger contour, which is to leave that out: J is 33 % low otherwise.
+// The disk is part of this reference and the next.
+TEST(BentCracks, HaveThemWhereTheyComeBack) {
+  expect_J_and_K({"hook", with_tail({{3, 60}, {4, 120}}), {8, 5, 0}, 0, 33.96, 0.871}, {4, 12});
+}
+
+// The arm is pressed together while the crack behind the bend is open: K_I is nothing, whatever the stresses next to
+// the tip, which are known no better than to a fraction of what the tip makes of them. The phase is 16 degrees off by
+// these.
+TEST(BentCracks, HaveThemWhereTheirArmIsPressedTogether) {
+  expect_J_and_K({"pressed arm of 5 cells", with_tail({{5, 50}}), {-12, 6, 5}, 17, 90, 1.239}, {4, 8});
+}
+
+// Up to 2.5 cells long it is not resolved: by two cells K is 13 to 41 % too large.
+TEST(BentCracks, WarnWhereAPressedArmIsShort) {
+  for (const auto& [cells, told] : {std::pair{2.0, true}, {5.0, false}}) {
+    const ChosenSpace space;
+    Simulation m(disk_under({-8 * MPa, 6 * MPa, 5 * MPa}, 17 * degree, {with_tail({{cells, 75}})}), space);
+    while (!m.finished())
+      m.step();
+    EXPECT_EQ(m.fracture.bent > 0, told) << cells << " cells";
   }
 }
 
