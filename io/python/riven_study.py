@@ -60,6 +60,24 @@ def styles(study):
     return of
 
 
+def label_ticks(axis):
+    """Plain numbers on a log axis: 1, 2, 5 of each decade, all whole ones within less than a decade, what lies between
+    where that still leaves few, and powers of ten where there are many."""
+    low, high = axis.get_view_interval()
+    decades = np.log10(high / low)
+    if decades < 0.4:
+        ticks = matplotlib.ticker.MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10])
+    elif decades < 1:
+        ticks = matplotlib.ticker.LogLocator(subs=range(1, 10))
+    elif decades < 4:
+        ticks = matplotlib.ticker.LogLocator(subs=(1, 2, 5))
+    else:
+        ticks = matplotlib.ticker.LogLocator(numticks=9)
+    axis.set_major_locator(ticks)
+    axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
 def draw_result(study, result, out, dpi):
     name = result["name"]
     costs = [nan(s["cost"]) for s in result["settings"]]
@@ -103,7 +121,7 @@ def draw_result(study, result, out, dpi):
         axes.set_yscale("log")
         axes.set_ylim(max(min(shown) / 2, 1e-4), max(shown) * 2)
         for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+            label_ticks(axis)
     else:
         axes.text(0.5, 0.5, "no error can be told", ha="center", transform=axes.transAxes)
     problem = axis_of(study, "problem")
