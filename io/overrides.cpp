@@ -1,5 +1,7 @@
 #include "io/overrides.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -85,7 +87,8 @@ void apply(toml::table& root, const std::string& argument) {
         {Exit::bad_input, "a setting needs a key and a value", shown(source), "", "key=value", "--set solver.cfl=0.3"});
   const std::vector<std::string> parts = split_path(std::string_view(argument).substr(0, equals));
   if (parts.size() > deepest || std::any_of(parts.begin(), parts.end(), [](const auto& p) { return p.empty(); }))
-    fail({Exit::bad_input, "the path of a setting cannot be read", shown(source), "", "names joined by dots", ""});
+    fail({Exit::bad_input, "the path of a setting cannot be read", shown(source), "",
+          fmt::format("at most {} names joined by dots", deepest), ""});
   const bool take_away = equals + 1 == argument.size();
   toml::table value = take_away ? toml::table() : value_of(argument.substr(equals + 1), source);
   toml::node* at = &root;

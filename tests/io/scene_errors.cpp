@@ -390,6 +390,35 @@ TEST(BadSceneParts, JNeedsATip) {
   EXPECT_NE(t.what.find("has a tip in a body"), std::string::npos) << Error(t).what();
 }
 
+/// So deep that whatever walks through it would come to the end of its stack.
+TEST(BadSceneParts, WhatIsNestedTooDeeplyIsRefused) {
+  const auto times = [](int n, const std::string& piece) {
+    std::string text;
+    for (int k = 0; k < n; ++k)
+      text += piece;
+    return text;
+  };
+  constexpr int n = 50'000;
+  const std::string start = "# one\n# two\n";
+  for (const auto& [text, allowed] : std::vector<std::pair<std::string, std::string>>{
+           {"[a" + times(n, ".a") + "]\n", "32 parts of a key"},
+           {"[[a" + times(n, " . 'a.b'") + "]]\n", "32 parts of a key"},
+           {"a" + times(n, ".a") + " = 1\n", "32 parts of a key"},
+           {"a = { \"b\"" + times(n, ".\"b\"") + " = 1 }\n", "32 parts of a key"},
+           {"a = [\"\"\" \"\"\"\"\", { b" + times(n, ".b") + " = 1 }]\n", "32 parts of a key"},
+           {"a = " + times(n, "[") + times(n, "]") + "\n", "32 arrays and tables"},
+           {"a = " + times(n, "{ a = ") + "1" + times(n, " }") + "\n", "32 arrays and tables"}}) {
+    const Trouble t = trouble_of(start + text);
+    EXPECT_EQ(t.code, Exit::bad_input);
+    EXPECT_EQ(t.where, "plate.toml:3");
+    EXPECT_NE(t.limit.find("at most " + allowed), std::string::npos) << Error(t).what();
+    EXPECT_LT(std::string(Error(t).what()).size(), 200u);
+  }
+  const std::string points = times(n, ".");
+  read("# " + points + "\n" +
+       changed("title = \"plate\"", "title = \"\"\"\n\\\"" + points + "'\n[[" + points + "\"\"\"") + "# \"" + points);
+}
+
 TEST(BadSceneFile, IsAFileError) {
   const auto code = [](const std::string& path) {
     try {

@@ -78,6 +78,7 @@ TEST(Overrides, UnknownPathIsRefusedWithTheNearest) {
   EXPECT_NE(message("=3").find("needs a key"), std::string::npos);
   EXPECT_NE(message("solver.cfl").find("needs a key"), std::string::npos);
   EXPECT_NE(message("solver..cfl=1").find("path"), std::string::npos);
+  EXPECT_EQ(trouble_of(good_scene, {"a.a.a.a.a.a.a.a.a=1"}).limit, "at most 8 names joined by dots");
 }
 
 TEST(Overrides, OneSettingIsOneKey) {
