@@ -23,7 +23,7 @@ namespace {
 struct StudyArguments {
   std::string study, folder, within, result;
   int threads = 0;
-  bool untimed = false, quiet = false, list = false;
+  bool untimed = false, quiet = false, list = false, dry = false;
 };
 
 void list_studies() {
@@ -97,6 +97,10 @@ void run(const StudyArguments& o) {
   const size_t asked = result_of(s, o.result);
   const std::string scene = scene_of(s);
   const study::Members members = study::expand(s, scene);
+  if (o.dry) {
+    print_runs(s, members);
+    return;
+  }
   const study::Store store(o.folder.empty() ? "results/" + s.name : o.folder);
   bool checked = false;
   const std::vector<study::Record> records = study::run_members(s, scene, members.runs, store, [&](const auto& a) {
@@ -127,6 +131,7 @@ void add_study(CLI::App& app) {
   command->add_option("--result", o->result, "the result that --within is about; the first unless said");
   command->add_option("--threads", o->threads, "threads of each run")->check(CLI::Range(1, 1024));
   command->add_flag("--no-timing", o->untimed, "take no times: members run side by side, once");
+  command->add_flag("--dry-run", o->dry, "list the runs that the study takes, and do none");
   command->add_flag("--list", o->list, "list the shipped studies");
   command->add_flag("--quiet", o->quiet, "print nothing but errors, and what --within asks for");
   command->callback([o, command] {

@@ -162,6 +162,26 @@ void print_advance(const Advance& a) {
              format_duration(a.record->wall.back()), format_duration(a.seconds_left));
 }
 
+void print_runs(const Study& s, const Members& members) {
+  std::vector<std::string> labels{"run"};
+  for (const Run& r : members.runs)
+    labels.push_back(r.label);
+  const size_t width = longest(labels);
+  fmt::print("{}: {} runs of {}\n", s.title, members.runs.size(), s.scene);
+  if (!s.set.empty())
+    fmt::print("all with {}\n", fmt::join(s.set, ", "));
+  fmt::print("\n{:<{}}  {:>10}  {:>10}  set\n", "run", width, "particles", "steps");
+  for (const Run& r : members.runs) {
+    const std::vector<std::string> own(r.set.begin() + static_cast<ptrdiff_t>(s.set.size()), r.set.end());
+    if (r.refused.empty())
+      fmt::print("{:<{}}  {:>10.0f}  {:>10.0f}  {}\n", r.label, width, r.particles, r.work / r.particles,
+                 fmt::join(own, ", "));
+    else
+      fmt::print("{:<{}}  {:>10}  {:>10}  {}\n", r.label, width, "refused", "-", fmt::join(own, ", "));
+  }
+  fmt::print("(particles and steps: about; steps as from the speed of waves)\n");
+}
+
 void print_study(const Study& s, const Members& members, const std::vector<Record>& records, const Assessment& a) {
   fmt::print("{}\n", s.title);
   for (size_t r = 0; r < s.results.size(); ++r)

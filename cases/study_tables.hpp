@@ -5,6 +5,9 @@
 
 namespace riven {
 
+/// The runs that the study takes: what is set in each on top of Study::set, and about how large each is.
+void print_runs(const study::Study&, const study::Members&);
+
 /// One line for a run that has ended: which, how it went, how long it took, and what is left.
 void print_advance(const study::Advance& advance);
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/plan/plan.hpp"
+#include "core/plan/predict_memory.hpp"
 #include "io/child.hpp"
 #include "io/overrides.hpp"
 #include "io/read_scene.hpp"
@@ -124,10 +125,10 @@ class Expander {
     const auto [known, fresh] = numbers_.try_emplace(set, out_.runs.size());
     if (!fresh)
       return known->second;
-    Run r{label, set, "", 0, ""};
+    Run r{label, set, "", 0, "", 0};
     try {
       const Scene s = read_scene(scene_, set);
-      make_plan(s);
+      r.particles = predict_memory(s, make_plan(s)).particles;
       r.hash = hash_of(s, study_, program_);
       r.work = work_of(s);
       if (const auto same = scenes_.try_emplace(r.hash, known->second); !same.second)

@@ -13,9 +13,10 @@ namespace riven::study {
 struct Run {
   std::string label;
   std::vector<std::string> set;  ///< on top of the scene, as for `riven run --set`
-  std::string hash;     ///< of the scene with these settings and its files, the number of threads and this program
-  double work = 0;      ///< particles times steps, about
-  std::string refused;  ///< why the scene cannot be run with these settings; else empty
+  std::string hash;      ///< of the scene with these settings and its files, the number of threads and this program
+  double work = 0;       ///< particles times steps, about
+  std::string refused;   ///< why the scene cannot be run with these settings; else empty
+  double particles = 0;  ///< about
 };
 
 struct Member {

@@ -38,7 +38,7 @@ class Assessing : public testing::Test {
   }
 
   void add(double value, double seconds) {
-    members_.runs.push_back({"", {}, fmt::format("run {}", members_.runs.size()), 0, ""});
+    members_.runs.push_back({"", {}, fmt::format("run {}", members_.runs.size()), 0, "", 0});
     Record r;
     r.status = std::isnan(value) ? "unstable" : "done";
     r.wall = {seconds};

@@ -281,6 +281,26 @@ TEST_F(StudyRuns, StopWhenAskedTo) {
   EXPECT_GE(kept, 3);
 }
 
+/// What is asked for is listed, and neither done nor written.
+TEST_F(StudyRuns, AreListedBeforeTheyAreDone) {
+  write("set = [\"output.frames=1\"]\n");
+  const Outcome o = riven(call("--dry-run"), folder_);
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_FALSE(fs::exists(out_));
+  EXPECT_NE(o.output.find("cells: 8 runs of bar.toml\nall with output.frames=1\n"), std::string::npos) << o.output;
+  EXPECT_EQ(o.output.find("output.frames"), o.output.rfind("output.frames"));
+  std::map<std::string, std::string> rows;  // by what is set
+  std::istringstream lines(o.output);
+  for (std::string line; std::getline(lines, line);)
+    if (const size_t at = line.find("grid.cell="); at != std::string::npos)
+      rows[line.substr(at)] = line;
+  ASSERT_EQ(rows.size(), 6u) << o.output;
+  const std::string& fine = rows.at("grid.cell=\"1 mm\", solver.cfl=0.4");
+  EXPECT_TRUE(fine.starts_with("cell 1 mm, cfl 0.4 ")) << fine;
+  EXPECT_NE(fine.find(" 1280 "), std::string::npos) << fine << ": 40 x 8 cells of 4 particles";
+  EXPECT_NE(o.output.find("without damping"), std::string::npos);
+}
+
 /// A run that dies is a point that failed, and is tried again the next time.
 TEST_F(StudyRuns, OutliveRunsThatCrash) {
   write("", R"("4 mm", "2 mm", "0.05 mm")");
