@@ -7,6 +7,7 @@
 #include "cases/commands.hpp"
 #include "cases/study_tables.hpp"
 #include "core/error.hpp"
+#include "io/folder_lock.hpp"
 #include "io/progress.hpp"
 #include "io/read_scene.hpp"
 #include "io/study/advise.hpp"
@@ -88,6 +89,7 @@ void run(const AdviseArguments& o) {
   const Scene scene = read_scene(file, o.set);
   const std::vector<study::Rung> rungs = study::rungs(scene), ladder = study::choose_ladder(scene, rungs);
   const study::Store store(o.folder.empty() ? "results/" + scene.name + "_advice" : o.folder);
+  const FolderLock lock(store.folder());
   std::vector<std::string> histories;
   const std::vector<study::Record> records = climb(o, file, ladder, store, histories);
   const std::vector<std::string> columns =

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/at_place.hpp"
 #include "io/child.hpp"
+#include "io/folder_lock.hpp"
 #include "io/study/read_study.hpp"
 #include "io/study/run_members.hpp"
 #include "io/study/settings_text.hpp"
@@ -101,7 +102,10 @@ void run(const StudyArguments& o) {
     print_runs(s, members);
     return;
   }
-  const study::Store store(o.folder.empty() ? "results/" + s.name : o.folder);
+  const fs::path folder = o.folder.empty() ? "results/" + s.name : o.folder;
+  const FolderLock lock(folder);
+  study::refuse_to_remove_study(folder, s);
+  const study::Store store(folder);
   bool checked = false;
   const std::vector<study::Record> records = study::run_members(s, scene, members.runs, store, [&](const auto& a) {
     if (!o.quiet)

@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/math/median.hpp"
 #include "io/atomic_file.hpp"
 #include "io/history.hpp"
+#include "io/suggest.hpp"
 
 namespace riven::study {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr const char* json_name = "study.json";
 
 Json number(double x) {
   return std::isfinite(x) ? Json(x) : Json(nullptr);
@@ -193,11 +197,27 @@ std::vector<LeftOutReport> report_left_out(const Study& study, const Members& me
   return list;
 }
 
+void refuse_to_remove_study(const std::filesystem::path& folder, const Study& study) {
+  std::ifstream in(folder / json_name);
+  const Json j = Json::parse(in, nullptr, false);
+  if (!j.is_object())
+    return;
+  const auto text_of = [&](const char* key, const std::string& otherwise) {
+    return j.contains(key) && j[key].is_string() ? j[key].get<std::string>() : otherwise;
+  };
+  const std::string name = text_of("study", study.name), scene = text_of("scene", study.scene);
+  const auto told = [](const std::string& a, const std::string& b) { return shown(a) + ", of scene " + shown(b); };
+  if (name != study.name || scene != study.scene)
+    fail({Exit::file, "this folder holds the results of another study", folder.string(), told(name, scene),
+          "a folder that is new, or holds results of " + told(study.name, study.scene),
+          "-o names another folder, or remove this one"});
+}
+
 void write_study(const std::filesystem::path& folder, const Study& study, const Members& members,
                  const std::vector<Record>& records, const Assessment& assessment) {
   const Writer writer(study, members, records, assessment);
   write_file(folder / "study.csv", writer.csv());
-  write_file(folder / "study.json", writer.json().dump(2) + "\n");
+  write_file(folder / json_name, writer.json().dump(2) + "\n");
 }
 
 }  // namespace riven::study

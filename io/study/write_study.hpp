@@ -17,6 +17,9 @@ struct LeftOutReport {
 };
 std::vector<LeftOutReport> report_left_out(const Study&, const Members&, const std::vector<Record>&, const Assessment&);
 
+/// Throws Error (file) where the folder holds what another study has found: one of another name, or of another scene.
+void refuse_to_remove_study(const std::filesystem::path& folder, const Study&);
+
 /// Both files appear whole or not at all. Throws Error (file).
 void write_study(const std::filesystem::path& folder, const Study&, const Members&, const std::vector<Record>&,
                  const Assessment&);

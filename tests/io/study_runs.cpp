@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "io/child.hpp"
+#include "io/folder_lock.hpp"
 #include "tests/program.hpp"
 
 namespace riven {
@@ -299,6 +300,33 @@ TEST_F(StudyRuns, AreListedBeforeTheyAreDone) {
   EXPECT_TRUE(fine.starts_with("cell 1 mm, cfl 0.4 ")) << fine;
   EXPECT_NE(fine.find(" 1280 "), std::string::npos) << fine << ": 40 x 8 cells of 4 particles";
   EXPECT_NE(o.output.find("without damping"), std::string::npos);
+}
+
+/// The results of one study stay when another is run into their folder, or the same one while it runs.
+TEST_F(StudyRuns, LeaveTheResultsOfAnotherStudy) {
+  const fs::path first = write(), other = folder_ / "other.toml";
+  ASSERT_EQ(riven(call("--no-timing"), folder_).code, 0);
+  const std::string found = sample::text_of(out_ + "/study.json");
+  fs::copy_file(first, other);
+  const std::string into = " --quiet --no-timing -o '" + out_ + "'";
+  const Outcome refused = riven("study '" + other.string() + "'" + into, folder_);
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_NE(refused.errors.find("the results of another study\n  value:   cells, of scene bar.toml"), std::string::npos)
+      << refused.errors;
+  fs::copy_file(folder_ / "bar.toml", folder_ / "rod.toml");
+  std::string of_rod = sample::text_of(first);
+  of_rod.replace(of_rod.find("bar.toml"), 8, "rod.toml");
+  std::ofstream(first) << of_rod;
+  EXPECT_EQ(riven(call("--no-timing"), folder_).code, 4);
+  EXPECT_EQ(sample::text_of(out_ + "/study.json"), found);
+  write("", R"("4 mm", "2 mm", "1 mm", "0.8 mm")");
+  {
+    const FolderLock held(out_);
+    const Outcome waits = riven(call("--no-timing"), folder_);
+    EXPECT_EQ(waits.code, 4);
+    EXPECT_NE(waits.errors.find("another run writes into this folder"), std::string::npos) << waits.errors;
+  }
+  EXPECT_EQ(riven(call("--no-timing"), folder_).code, 0) << "the same one, extended";
 }
 
 /// A run that dies is a point that failed, and is tried again the next time.
