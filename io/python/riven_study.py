@@ -86,7 +86,7 @@ def draw_result(study, result, out, dpi):
     refined = axis_of(study, "refined") is not None
     for number, (method, style) in enumerate(zip(study["methods"], styles(study).values())):
         good = [k for k in method["settings"] if np.isfinite(errors[k])]
-        label = method["label"] or "all"
+        label = method["label"]
         order = nan(result["fits"][number]["order"])
         if np.isfinite(order):
             label += f"  (order {order:.1f})"

@@ -26,6 +26,13 @@ Labelled& labelled(std::vector<Labelled>& list, const std::string& label) {
   return list.back();
 }
 
+/// Where no axis tells entries apart there is one, without a label.
+template <class Labelled>
+void name_the_only(std::vector<Labelled>& list) {
+  if (list.size() == 1 && list[0].label.empty())
+    list[0].label = "as it is";
+}
+
 }  // namespace
 
 std::string label_of(const Study& study, const Member& m) {
@@ -39,8 +46,7 @@ std::vector<Setting> settings_of(const Study& study, const Members& all) {
   for (size_t k = 0; k < all.members.size(); ++k)
     if (const Member& m = all.members[k]; !m.choice.empty())
       labelled(settings, label_without(study, m, [](const Axis& a) { return a.problem; })).members.push_back(k);
-  if (settings.size() == 1 && settings[0].label.empty())
-    settings[0].label = "as it is";
+  name_the_only(settings);
   return settings;
 }
 
@@ -52,6 +58,7 @@ std::vector<Method> methods_of(const Study& study, const Members& all, const std
     labelled(methods, label_without(study, first, [](const Axis& a) { return a.problem || a.refined; }))
         .settings.push_back(k);
   }
+  name_the_only(methods);
   const auto done = [&](size_t setting) {
     const std::vector<size_t>& members = settings[setting].members;
     return std::all_of(members.begin(), members.end(), [&](size_t m) { return records[all.members[m].run].done(); });

@@ -68,6 +68,19 @@ TEST_F(Assessing, FindsOrdersOfErrorAndCost) {
   EXPECT_EQ(r.front, (std::vector<size_t>{0, 2, 4})) << "a and b cost the same, and are as bad with 4 mm";
 }
 
+/// With no other axis than the cell there is one method, which tables and pictures have a word for.
+TEST_F(Assessing, NamesTheOnlyMethod) {
+  study_.axes.pop_back();
+  for (size_t h = 0; h < 3; ++h) {
+    members_.members.push_back({{h}, h, "", ""});
+    add(100 + std::pow(4., 2. - static_cast<double>(h)), 1);
+  }
+  const Assessment s = study::assess(study_, members_, records_, store_);
+  ASSERT_EQ(s.methods.size(), 1u);
+  EXPECT_EQ(s.methods[0].label, "as it is");
+  EXPECT_EQ(s.settings[0].label, "cell 4 mm");
+}
+
 /// 4 mm is exact by chance: with 2 mm the method is off by 8 %.
 TEST_F(Assessing, DoesNotRecommendWhatIsRightByChance) {
   const ResultReport r = assess({100, 108, 104}, {110, 106, 101}).results[0];
