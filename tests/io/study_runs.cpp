@@ -282,6 +282,29 @@ TEST_F(StudyRuns, StopWhenAskedTo) {
   EXPECT_GE(kept, 3);
 }
 
+/// The run under way would go on for long: it ends at once, and says that it was interrupted, as it is told to.
+TEST_F(StudyRuns, HandAStopToTheRunUnderWay) {
+  write("set = [\"solver.time=5 s\"]\n");
+  Children children;
+  const pid_t study =
+      children.start({RIVEN_PROGRAM, "study", (folder_ / "cells.toml").string(), "-o", out_}, folder_ / "log.txt");
+  const auto under_way = [&] {
+    if (fs::is_directory(out_ + "/runs"))
+      for (const auto& run : fs::directory_iterator(out_ + "/runs"))
+        if (fs::exists(run.path() / "history.csv") && !fs::exists(run.path() / "record.json"))
+          return run.path();
+    return fs::path();
+  };
+  while (under_way().empty() || records().empty())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const fs::path run = under_way();
+  kill(study, SIGTERM);  // the study alone
+  EXPECT_EQ(children.wait().code, 5);
+  EXPECT_EQ(writing(), 0);
+  EXPECT_EQ(Json::parse(sample::text_of(run / "record.json"))["status"], "interrupted");
+  EXPECT_EQ(Json::parse(sample::text_of(run / "summary.json"))["status"], "interrupted");
+}
+
 /// What is asked for is listed, and neither done nor written.
 TEST_F(StudyRuns, AreListedBeforeTheyAreDone) {
   write("set = [\"output.frames=1\"]\n");
