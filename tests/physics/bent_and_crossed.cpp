@@ -99,7 +99,7 @@ CrackLine kinked(double cells, double turn) {
 /// Parts of so many cells that a crack goes on by at its last end, each in a direction of so many degrees.
 CrackLine with_tail(std::vector<std::pair<double, double>> parts) {
   std::vector<Vec2> points{{-half, 0}, {half, 0}};
-  for (const auto [cells, direction] : parts)
+  for (const auto& [cells, direction] : parts)
     points.push_back(points.back() + cells * cell * Vec2{std::cos(direction * degree), std::sin(direction * degree)});
   return crack("bent", points);
 }
