@@ -114,11 +114,12 @@ class FaceIntegral {
   }
 
   /// Where the tip's own crack ends within the domain the known fields are torn in the solid: a mouth is no matter,
-  /// another crack is.
+  /// another crack is, unless the cut goes on along that.
   void add_other(const Segment& s) {
-    see(task_.passes && !own_.bears(s.k));
     const Meeting meeting = meet(s, touching);
-    task_.sums.steep = task_.sums.steep || meeting.holds;
+    const bool host = s.crack == task_.way.host;
+    see(task_.passes && !own_.bears(s.k) && !(host && meeting.holds));
+    task_.sums.steep = task_.sums.steep || host || meeting.holds;
     add_faces(s, meeting);
   }
 
@@ -149,9 +150,7 @@ class FaceIntegral {
   }
 
   /// Does it lie where the tip's crack has come back?
-  bool comes_back(const Segment& s) const {
-    return task_.last ? s.k < task_.runs_away_until : s.k >= task_.runs_away_until;
-  }
+  bool comes_back(const Segment& s) const { return task_.last ? s.k < task_.way.until : s.k >= task_.way.until; }
 
   bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > BranchCut::bent; }
 

@@ -50,8 +50,8 @@ struct TipTask {
   JDomain domain;
   std::optional<JDomain> core;   ///< within the domain, where what inertia adds is left out
   std::optional<BranchCut> cut;  ///< of the known fields, where the crack is not in line with its tip
-  int runs_away_until = 0;       ///< see branch_cut.hpp
-  bool passes = false;           ///< the crack passes out of the domain
+  WayFromTip way;                ///< of the crack out of the domain
+  bool passes = false;           ///< the crack passes out of the domain, itself or along the one that it ends on
   int crack = 0;
   bool last = true;         ///< which end of the crack it is
   double grown = 0;         ///< m, length by which the crack has grown there

@@ -58,7 +58,7 @@ class KnownOnFaces {
     if (!task_.interaction)
       return;
     const FaceStress stress(values, s.normal);
-    add(s, s.out(side), free ? FaceStress(stress.along) : stress, values[face_rotation], 1);
+    add(s, s.out(side), free ? FaceStress(stress.along) : stress, values[face_rotation], sign_beside(s, side));
   }
 
   /// Of the tip's own crack. Particles that the tip has passed keep what cancels on the grid, and the faces themselves
@@ -73,6 +73,28 @@ class KnownOnFaces {
 
  private:
   Vec2 in_frame(Vec2 a) const { return {dot(a, task_.heading), cross(task_.heading, a)}; }
+
+  /// The sign of the known fields next to a face of another crack, along which the cut may go on.
+  double sign_beside(const FaceSegment& s, Side side) const {
+    if (!task_.cut)
+      return 1;
+    const Vec2 r = in_frame(s.middle - task_.domain.tip);
+    if (!is_on_way(s))
+      return task_.cut->sign(r);
+    const double left = BranchCut::sign_on_left(r);
+    return (side == Side::above) == (task_.way.host_step() < 0) ? left : -left;
+  }
+
+  bool is_on_way(const FaceSegment& s) const {
+    const WayFromTip& way = task_.way;
+    if (s.crack != way.host)
+      return false;
+    const Vec2 end = cracks_.plane[way.until];
+    const int behind = way.host_first - (way.host_step() > 0 ? 1 : 0);  // the segment that the tip's crack ends on
+    if (s.k == behind)
+      return dot(s.middle - end, cracks_.plane[way.host_first] - end) > 0;
+    return way.host_step() > 0 ? s.k > behind : s.k < behind;
+  }
 
   /// Sine of the angle by which a face has turned more than the tip.
   double rotation(int k, Side side) const {

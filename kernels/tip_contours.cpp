@@ -74,12 +74,11 @@ TipTask TipContours<Real>::place(DueTip& d) const {
   if (task.running.speed > 0)
     task.core = core_of(task.domain, core_of_running_tip * m_.scene.cell, m_.scene.cell);
   task.interaction = rules_.interaction;
-  const double x = std::max(task.domain.outer(right), task.domain.outer(left));
-  const double y = std::max(task.domain.outer(top), task.domain.outer(bottom));
-  task.runs_away_until = runs_away_until(s_.cracks, tip, norm(Vec2{x, y}));
+  task.way = WayFromTip::of(s_.cracks, tip, task.domain);
   if (task.interaction) {
-    task.passes = !(task.domain.weight(s_.cracks.plane[s_.cracks.end_point(tip.crack, !tip.last)] - at) > 0);
-    task.cut = BranchCut::along(s_.cracks, tip, task.heading, task.runs_away_until);
+    task.passes = task.way.host >= 0 ||
+                  !(task.domain.weight(s_.cracks.plane[s_.cracks.end_point(tip.crack, !tip.last)] - at) > 0);
+    task.cut = BranchCut::along(s_.cracks, tip, task.heading, task.way);
   }
   return task;
 }

@@ -10,48 +10,30 @@
 #include <optional>
 #include <vector>
 
+#include "core/fracture/way_from_tip.hpp"
 #include "core/math/vec.hpp"
-#include "core/state/cracks.hpp"
-#include "core/state/tips.hpp"
 
 namespace riven {
 
-/// The point of a tip's crack to which it runs away from the tip: the first that is `far` (m) from it, the last that is
-/// farther than those before, or the other end. Beyond it the crack may come back, beside which no sign is known.
-inline int runs_away_until(const Cracks& cracks, const Tip& tip, double far) {
-  const int step = tip.last ? -1 : 1, other = cracks.end_point(tip.crack, !tip.last);
-  int k = cracks.end_point(tip.crack, tip.last);
-  const Vec2 x = cracks.plane[k];
-  double distance = 0;
-  while (k != other && distance < far * far) {
-    const Vec2 r = cracks.plane[k + step] - x;
-    if (!(dot(r, r) > distance))
-      break;
-    distance = dot(r, r);
-    k += step;
-  }
-  return k;
-}
-
 class BranchCut {
  public:
-  /// That of a tip whose crack is not in line with it up to a point that it runs away to; none where it is. Farther
-  /// away the cut goes on straight away from the tip.
-  static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, int until) {
-    const int step = tip.last ? -1 : 1, end = cracks.end_point(tip.crack, tip.last);
-    const Vec2 x = cracks.plane[end];
+  /// That along a crack's way from its tip; none where it is in line with the tip. Farther away the cut goes on
+  /// straight away from the tip.
+  static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, const WayFromTip& way) {
+    const Vec2 x = cracks.plane[cracks.end_point(tip.crack, tip.last)];
+    BranchCut cut;
     bool bends = false;
-    for (int k = end; k != until; k += step) {
-      const Vec2 segment = cracks.plane[k] - cracks.plane[k + step];
+    Vec2 before = x, last;
+    way.each(cracks, tip, [&](int k) {
+      const Vec2 at = cracks.plane[k], segment = before - at;
       const double off = cross(segment, heading);
       bends = bends || off * off > curved * curved * dot(segment, segment);
-    }
+      cut.add(at - x, heading);
+      before = last = at;
+    });
     if (!bends)
       return std::nullopt;
-    BranchCut cut;
-    for (int k = end; k != until + step; k += step)
-      cut.add(cracks.plane[k] - x, heading);
-    cut.add(2 * (cracks.plane[until] - x), heading);
+    cut.add(2 * (last - x), heading);
     return cut;
   }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/fracture/opening.hpp"
+#include "core/fracture/place_domain.hpp"
 #include "core/scene/scene.hpp"
 
 namespace riven {
@@ -20,10 +21,18 @@ Cracks one_crack(std::vector<Vec2> points) {
   return make_cracks(scene, 0.5);
 }
 
+/// A square domain, of which no part is farther than so from the tip.
+JDomain domain_of(const Cracks& cracks, const Tip& tip, double far) {
+  const double reach = far / std::sqrt(2) - 0.5;
+  const double edges[4] = {reach, reach, reach, reach};
+  return plain_domain(cracks.plane[cracks.end_point(tip.crack, tip.last)], edges, 0.5);
+}
+
 std::optional<BranchCut> cut_of(const Cracks& cracks, bool last, double far = 6) {
   Tip tip;
   tip.last = last;
-  return BranchCut::along(cracks, tip, heading_of(cracks, tip), runs_away_until(cracks, tip, far));
+  return BranchCut::along(cracks, tip, heading_of(cracks, tip),
+                          WayFromTip::of(cracks, tip, domain_of(cracks, tip, far)));
 }
 
 TEST(BranchCut, IsThatOfTheFieldsThemselvesBehindAStraightTip) {
@@ -39,7 +48,7 @@ TEST(BranchCut, FollowsTheCrackUpToWhereItComesBack) {
     Tip tip;
     tip.last = last;
     const double far = last ? 10 : 1.5;  // the first tip's crack has run far enough before it turns
-    const Vec2 until = cracks.plane[runs_away_until(cracks, tip, far)];
+    const Vec2 until = cracks.plane[WayFromTip::of(cracks, tip, domain_of(cracks, tip, far)).until];
     EXPECT_NEAR(norm(until - (last ? Vec2{-4, 0} : Vec2{-3, 2})), 0, 0.5) << last;
   }
   const auto cut = cut_of(cracks, true, 10);
@@ -49,6 +58,35 @@ TEST(BranchCut, FollowsTheCrackUpToWhereItComesBack) {
   const double far = norm(Vec2{-5, 4});
   EXPECT_EQ(bent->sign(1.5 * Vec2{-5, 4} + Vec2{0.1, 0.2}), 1) << "straight on from where it comes back, at " << far;
   EXPECT_EQ(bent->sign(1.5 * Vec2{-5, 4} - Vec2{0.1, 0.2}), -1);
+}
+
+// The crack ends on another one, on either end of which, or on one alone, there is a way out of the domain.
+TEST(BranchCut, GoesOnAlongTheCrackOnWhichItsOwnEnds) {
+  for (const bool up : {false, true}) {
+    Scene scene;
+    CrackLine own, host;
+    own.points = {{0, 0}, {3, 0}};
+    host.points = {{0, up ? -1.0 : -9.0}, {0, 9}};
+    scene.cracks = {own, host};
+    Cracks cracks = make_cracks(scene, 0.5);
+    Junction j;
+    j.other = 1;
+    j.segment = up ? 2 : 18;
+    cracks.junctions.push_back(j);
+    Tip tip;
+    tip.last = true;
+    const WayFromTip way = WayFromTip::of(cracks, tip, domain_of(cracks, tip, 8));
+    EXPECT_EQ(way.host, 1);
+    EXPECT_EQ(way.host_step(), up ? 1 : -1);
+    const auto cut = BranchCut::along(cracks, tip, heading_of(cracks, tip), way);
+    ASSERT_TRUE(cut);
+    // between the line behind the tip and the other crack, on the side to which the cut goes
+    for (const double y : {-1.0, 1.0}) {
+      EXPECT_EQ(cut->sign(Vec2{-2, y} - Vec2{3, 0}), (y > 0) == up ? -1 : 1) << up << y;
+      EXPECT_EQ(cut->sign(Vec2{1, 2 * y} - Vec2{3, 0}), 1) << up << y;
+      EXPECT_EQ(cut->sign(Vec2{4, 2 * y} - Vec2{3, 0}), 1) << up << y;
+    }
+  }
 }
 
 // Going round the tip from straight ahead to a place, without a step over the crack, the half angle goes on; the fields

@@ -219,6 +219,31 @@ TEST(BentCracks, GrowInTheirDirection) {
   }
 }
 
+// A crack that ends on another one within the contour. By its opening the phase of the second is 5.6 degrees off, and J
+// by the larger contour up to 5 % in its root.
+TEST(CrossedCracks, HaveThemWhereTheyEndOnOthers) {
+  const Pull pull{6 * MPa, 10 * MPa, 3 * MPa};
+  const double angle = 17 * degree;
+  const Tip straight = tip_of(disk_under(pull, angle, {crack("straight", {{-half, 0}, {half, 0}})}), 8);
+  struct Case {
+    double cells, host, phase, over_straight;  ///< length of the crack, degrees of the other one
+  };
+  for (const Case& c : {Case{4, 90, 16.32, 0.5015}, Case{3, 60, 17.87, 0.4666}}) {
+    const Vec2 arm = 6 * cell * Vec2{std::cos(c.host * degree), std::sin(c.host * degree)};
+    const Scene scene =
+        disk_under(pull, angle, {crack("on", {{0, 0}, {c.cells * cell, 0}}), crack("host", {-1 * arm, {0, 0}, arm})});
+    for (const int contour : {4, 8}) {
+      const Tip tip = tip_of(scene, contour);
+      const auto what = fmt::format("crack of {} cells that ends on another one, contour of {}", c.cells, contour);
+      const double off = phase(K_of(tip)) - c.phase, over = std::sqrt(tip.J / straight.J) / c.over_straight - 1;
+      gates::report(what + ": atan K_II / K_I less its reference, degrees", off, "2");
+      gates::report(what + ": root of J over that of the straight crack, over its reference, less 1", over, "0.03");
+      EXPECT_NEAR(off, 0, 2);
+      EXPECT_NEAR(over, 0, 0.03);
+    }
+  }
+}
+
 // By the opening up to the other crack the phases are off by 6 degrees in the first two; J by its own integral is 30 %
 // high and 47 % low behind the cracks that are shut, the last two. The stuck one, whose stresses are as if it were not
 // there, is off most: by 2.3 degrees, and by 3.7 % in the root of J.
