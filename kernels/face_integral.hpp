@@ -235,9 +235,9 @@ class FaceIntegral {
       return *near_tip_;
     Segment at = clear_of_tip(s, near);
     near_tip_ = meet(at, shut);
-    task_.sums.shut = near_tip_->holds && meet(clear_of_tip(s, std::min(1.0, near)), shut).holds;
     const Vec2 n = at.normal;
     const double pressure = dot(near_tip_->traction, n);
+    task_.sums.shut = pressure > 0 && meet(clear_of_tip(s, std::min(1.0, near)), shut).holds;
     double sum = pressure;
     int count = 1;
     for (double cells = near + 1; near_tip_->holds && count < places && cells <= half; ++cells, ++count) {

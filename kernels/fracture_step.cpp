@@ -155,8 +155,10 @@ class JSearch {
     const StressIntensity by_opening = share_out(solid, tip.J, speed_of(tip), opening);
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
-    if (!by_interaction)
-      set_intensity(tip, solid, by_opening, share_out(solid, tip.J, 0, opening));
+    if (!by_interaction) {
+      const Vec2 open{task.sums.shut ? 0 : opening.x, opening.y};
+      set_intensity(tip, solid, share_out(solid, tip.J, speed_of(tip), open), share_out(solid, tip.J, 0, open));
+    }
     d.to_near = task.interaction && half_ > 0.5 * near_contour * m_.scene.cell && (!by_interaction || tip.speed > 0);
   }
 

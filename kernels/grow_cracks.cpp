@@ -93,10 +93,24 @@ class Growth {
     return d * (1 / norm(d));
   }
 
+  /// Where no contour is sound what is left of the solid ahead is a cell or two: a tip that runs goes through it, and
+  /// so does one at rest that is driven, though the least contour takes in too little of the solid to say where to.
   std::optional<Vec2> next_way() const {
     if (tip_.sound)
       return growth_direction(*rule_, tip_, ahead_);
-    return tip_.running ? way_out() : std::nullopt;
+    return tip_.running || load_now() >= 1 ? way_out() : std::nullopt;
+  }
+
+  /// How near the tip is to growth. Where no contour is sound: the lesser of what J and K say, which agree where they
+  /// mean something.
+  double load_now() const {
+    if (tip_.sound)
+      return growth_load(*rule_, tip_);
+    Tip by_J = tip_;
+    by_J.drive_I = tip_.K_I;
+    by_J.drive_II = tip_.K_II;
+    by_J.release = tip_.J;
+    return std::min(growth_load(*rule_, tip_), growth_load(*rule_, by_J));
   }
 
   /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
@@ -198,7 +212,7 @@ class Growth {
 
   /// Steps for which the tip, if it rests, is left alone, by what its load has done since the last check.
   long steps_alone() {
-    const double load = tip_.sound ? growth_load(*rule_, tip_) : tip_.load;
+    const double load = tip_.sound || !tip_.running ? load_now() : tip_.load;
     const long steps = s_.clock.step - tip_.checked;
     const double rise = steps > 0 ? (load - tip_.load) / static_cast<double>(steps) : load;
     tip_.load = load;

@@ -82,7 +82,7 @@ class KnownOnFaces {
     if (!is_on_way(s))
       return task_.cut->sign(r);
     const double left = BranchCut::sign_on_left(r);
-    return (side == Side::above) == (task_.way.host_step() < 0) ? left : -left;
+    return (side == Side::above) == (task_.way.host_step < 0) ? left : -left;
   }
 
   bool is_on_way(const FaceSegment& s) const {
@@ -90,10 +90,10 @@ class KnownOnFaces {
     if (s.crack != way.host)
       return false;
     const Vec2 end = cracks_.plane[way.until];
-    const int behind = way.host_first - (way.host_step() > 0 ? 1 : 0);  // the segment that the tip's crack ends on
+    const int behind = way.host_first - (way.host_step > 0 ? 1 : 0);  // the segment that the tip's crack ends on
     if (s.k == behind)
       return dot(s.middle - end, cracks_.plane[way.host_first] - end) > 0;
-    return way.host_step() > 0 ? s.k > behind : s.k < behind;
+    return way.host_step > 0 ? s.k > behind : s.k < behind;
   }
 
   /// Sine of the angle by which a face has turned more than the tip.

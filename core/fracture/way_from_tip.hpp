@@ -11,11 +11,12 @@
 namespace riven {
 
 struct WayFromTip {
-  /// The point of the tip's crack to which it runs away from the tip: the first that is as far from it as asked for,
+  /// The point of the tip's crack to which it runs away from the tip: the first that is farther than all of the domain,
   /// the last that is farther than those before, or the other end. Beyond it the crack may come back.
   int until = 0;
-  int host = -1;                      ///< the crack that it goes on along as far as asked for, or -1
-  int host_first = 0, host_last = 0;  ///< points of that one, up or down, the first next to the end of the tip's
+  int host = -1;                      ///< the crack that it goes on along and out of the domain, or -1
+  int host_first = 0, host_last = 0;  ///< points of that one, the first next to the end of the tip's
+  int host_step = 1;                  ///< 1, or -1 where these go down
 
   static WayFromTip of(const Cracks& cracks, const Tip& tip, const JDomain& domain) {
     const int step = tip.last ? -1 : 1, other = cracks.end_point(tip.crack, !tip.last);
@@ -35,10 +36,8 @@ struct WayFromTip {
   void each(const Cracks& cracks, const Tip& tip, const F& f) const {
     each_between(cracks.end_point(tip.crack, tip.last), until, tip.last ? -1 : 1, f);
     if (host >= 0)
-      each_between(host_first, host_last, host_step(), f);
+      each_between(host_first, host_last, host_step, f);
   }
-
-  int host_step() const { return host_last < host_first ? -1 : 1; }
 
  private:
   template <class F>
@@ -84,6 +83,7 @@ struct WayFromTip {
       host = j.other;
       host_first = first;
       host_last = last;
+      host_step = step;
       return;
     }
   }

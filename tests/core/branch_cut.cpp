@@ -77,7 +77,7 @@ TEST(BranchCut, GoesOnAlongTheCrackOnWhichItsOwnEnds) {
     tip.last = true;
     const WayFromTip way = WayFromTip::of(cracks, tip, domain_of(cracks, tip, 8));
     EXPECT_EQ(way.host, 1);
-    EXPECT_EQ(way.host_step(), up ? 1 : -1);
+    EXPECT_EQ(way.host_step, up ? 1 : -1);
     const auto cut = BranchCut::along(cracks, tip, heading_of(cracks, tip), way);
     ASSERT_TRUE(cut);
     // between the line behind the tip and the other crack, on the side to which the cut goes

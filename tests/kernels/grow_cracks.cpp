@@ -356,7 +356,8 @@ TEST(GrowCracks, ArrestAndStartAgain) {
   EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest, Kind::start}));
 }
 
-/// Neither an old J nor one without a sound contour lets a crack grow; but a running one goes through to an edge.
+/// Neither an old J nor one without a sound contour lets a crack grow into the solid; but a running one goes through to
+/// an edge.
 TEST(GrowCracks, NeedAJThatCanBeTrusted) {
   bool sound = false;
   Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}, 25), [&](Tip& t) {
@@ -385,6 +386,21 @@ TEST(GrowCracks, NeedAJThatCanBeTrusted) {
   };
   run.to_the_end();
   EXPECT_EQ(run.m.state.events.back().kind, Kind::exit);
+}
+
+/// What is left of the solid between a tip and an edge, too little for a contour, breaks from rest where J and K drive
+/// the tip, and not by K of a contour whose J is nothing.
+TEST(GrowCracks, BreakWhatIsLeftBeforeAnEdge) {
+  for (const bool driven : {true, false}) {
+    Driven run(plate({crack("edge", {{-1, 8.1}, {22.6, 8.1}})}, 25), [&](Tip& t) {
+      open(t);
+      t.sound = false;
+      t.K_I = driven ? t.drive_I : 0;
+      t.J = driven ? t.J : 0;
+    });
+    run.steps(100);
+    EXPECT_EQ(run.events(), (driven ? std::vector{Kind::start, Kind::exit} : std::vector<Kind>{}));
+  }
 }
 
 /// One that runs along an edge less than a cell away breaks through to it where no contour fits in between.
