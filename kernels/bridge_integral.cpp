@@ -13,6 +13,10 @@ namespace {
 /// Cells from a tip within which nodes are bridged.
 constexpr double extent = 2.5;
 
+/// Cells behind a tip from which on the slope of its opening is taken where a node is. What acts on a node acts on the
+/// faces around it: one next to the tip has no part in a slope without bounds.
+constexpr double least_behind = 0.25;
+
 template <class Real>
 void add_bridge(const State<Real, 2>& s, const Tip& tip, const TipBridge& bridge, Vec2 end, bool own, TipTask& task) {
   const Lattice& l = s.grid.lattice;
@@ -24,7 +28,7 @@ void add_bridge(const State<Real, 2>& s, const Tip& tip, const TipBridge& bridge
     const Vec2 x = l.position(p.node);
     const double weight = task.domain.weight(x - task.domain.tip) - at_tip, behind = dot(end - x, t);
     if (weight != 0 && behind > 0)
-      force += (weight * inv / std::sqrt(behind)) * p.force;
+      force += (weight * inv / std::sqrt(std::max(behind, least_behind * l.h))) * p.force;
   }
   if (force.x == 0 && force.y == 0)
     return;
