@@ -38,6 +38,23 @@ void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
+/// Toughnesses of materials that no crack goes by.
+void doubt_toughness(const Scene& s, std::vector<Doubt>& list) {
+  const auto asked = [&](GrowthCriterion criterion) {
+    for (size_t c = 0; c < s.cracks.size(); ++c)
+      if (const GrowthRule* rule = growth_rule(s, static_cast<int>(c));
+          rule && rule->criterion == criterion && !(rule->toughness > 0))
+        return true;
+    return false;
+  };
+  const bool K = asked(GrowthCriterion::k_max), J = asked(GrowthCriterion::critical_j);
+  for (const Material& m : s.materials)
+    if ((m.K_Ic > 0 && !K) || (m.J_Ic > 0 && !J))
+      list.push_back({place(s, "material " + m.name),
+                      fmt::format("no crack grows by its {}", m.K_Ic > 0 && !K ? "K_Ic" : "J_Ic"),
+                      "a [growth] table takes it that has this criterion and no toughness of its own"});
+}
+
 double area_of(const Region& region) {
   if (const auto* d = std::get_if<Disk>(&region))
     return std::numbers::pi * d->radius * d->radius;
@@ -91,6 +108,10 @@ double thickness_of(const Scene& s, const Body& b) {
   return b.thickness > 0 ? b.thickness : s.thickness;
 }
 
+bool alike_at_tips(const Scene& s, int a, int b) {
+  return elastically_alike(s.materials[static_cast<size_t>(a)], s.materials[static_cast<size_t>(b)]);
+}
+
 /// A body of other material or thickness than the tip's own in its largest contour, or null.
 const Body* other_solid_near(const Scene& s, const Tip& tip, Vec2 at) {
   const double own = thickness_of(s, s.bodies[static_cast<size_t>(tip.body)]);
@@ -101,7 +122,8 @@ const Body* other_solid_near(const Scene& s, const Tip& tip, Vec2 at) {
   for (int j = -half; j <= half; ++j)
     for (int i = -half; i <= half; ++i)
       if (const int k = body_at(s, at + (0.5 * s.cell) * Vec2{double(i), double(j)}); k >= 0)
-        if (const Body& b = s.bodies[static_cast<size_t>(k)]; b.material != tip.material || thickness_of(s, b) != own)
+        if (const Body& b = s.bodies[static_cast<size_t>(k)];
+            !alike_at_tips(s, b.material, tip.material) || thickness_of(s, b) != own)
           return &b;
   return nullptr;
 }
@@ -113,7 +135,7 @@ void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
     const CrackLine& crack = s.cracks[static_cast<size_t>(tip.crack)];
     const char* const end = tip.last ? "last" : "first";
     const Body* const other = other_solid_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
-    if (other && other->material != tip.material)
+    if (other && !alike_at_tips(s, other->material, tip.material))
       list.push_back({place(s, "crack " + crack.name),
                       fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",
                                   end, s.materials[static_cast<size_t>(other->material)].name,
@@ -205,6 +227,7 @@ void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
 std::vector<Doubt> doubts(const Scene& s) {
   std::vector<Doubt> list;
   doubt_materials(s, list);
+  doubt_toughness(s, list);
   doubt_solids(s, list);
   doubt_loads(s, list);
   doubt_cracks(s, list);

@@ -17,8 +17,8 @@ void read_cracks(const Table& root, Scene& s);      ///< [contact], [growth], [c
 void read_fracture(const Table& root, Scene& s);    ///< [fracture]
 void read_output(const Table& root, Scene& s);      ///< [output], [[probe]]
 
-/// The table `growth` of this one, if there is one.
-std::optional<GrowthRule> read_growth(const Table& t);
+/// The table `growth` of this one, if there is one; its toughness may be that of the materials of all bodies.
+std::optional<GrowthRule> read_growth(const Table& t, const Scene& s);
 
 /// [crack.traction]
 TractionSettings read_traction(const Table& t);

@@ -17,6 +17,10 @@ Material read_material(const Table& t, size_t i) {
   m.E = t.quantity("E", dimension::stress, range::positive);
   m.nu = t.number("nu", Range{-1, 0.5, true, true});
   m.density = t.quantity("density", dimension::density, range::positive);
+  if (t.has("K_Ic"))
+    m.K_Ic = t.toughness("K_Ic");
+  if (t.has("J_Ic"))
+    m.J_Ic = t.quantity("J_Ic", dimension::energy_release, range::positive);
   return m;
 }
 
@@ -84,7 +88,7 @@ Region read_region(const Table& t) {
 }
 
 void read_bodies(const Table& root, Scene& s) {
-  const auto materials = root.tables("material", {"name", "law", "E", "nu", "density"});
+  const auto materials = root.tables("material", {"name", "law", "E", "nu", "density", "K_Ic", "J_Ic"});
   for (const Table& t : materials)
     s.materials.push_back(read_material(t, s.materials.size()));
   const auto names = names_of(s.materials);

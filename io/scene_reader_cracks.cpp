@@ -70,7 +70,7 @@ void read_cracks(const Table& root, Scene& s) {
       "contact", {"law", "friction", "normal_stiffness", "shear_stiffness", "detection", "v_sep", "v_contact", "when"});
   s.contact = read_contact(contact, s.contact);
   read_rules(contact, s.contact_rules);
-  s.growth = read_growth(root);
+  s.growth = read_growth(root, s);
   const Table motion = root.table("cracks", {"motion", "surface_update"});
   s.crack_motion = motion.choice("motion", std::optional(s.crack_motion));
   s.surface_update = motion.choice("surface_update", std::optional(s.surface_update));
@@ -87,7 +87,7 @@ void read_cracks(const Table& root, Scene& s) {
       crack.traction = read_traction(
           t.table("traction", {"kind", "rectangle", "disk", "polygon", "pressure", "strength", "toughness",
                                "shear_strength", "shear_toughness", "peak", "knee", "knee_strength", "decay"}));
-    crack.growth = read_growth(t);
+    crack.growth = read_growth(t, s);
     crack.grows = t.flag("grows", true);
     if (crack.growth && !crack.grows)
       t.refuse("grows", "the crack has a rule for its growth and does not grow", "growth or grows = false");

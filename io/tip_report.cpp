@@ -21,7 +21,7 @@ std::string name_of(const Tip& tip, const Cracks& cracks) {
 
 /// How near a tip is to growth; 0 where there is none any more.
 double load_of(const Scene& scene, const Tip& t) {
-  return t.open && t.grows ? growth_load(*growth_rule(scene, t.crack), t) : 0;
+  return t.open && t.grows ? growth_load(growth_rule_at(scene, t), t) : 0;
 }
 
 }  // namespace

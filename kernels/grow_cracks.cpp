@@ -30,13 +30,17 @@ class Growth {
  public:
   /// `boxes`: around the cracks as they are.
   Growth(SimulationOf<Real>& m, Tip& tip, const std::vector<Rectangle>& boxes)
-      : scene_(m.scene), s_(m.state), report_(m.fracture), tip_(tip), boxes_(boxes) {
+      : scene_(m.scene),
+        s_(m.state),
+        report_(m.fracture),
+        tip_(tip),
+        boxes_(boxes),
+        rule_(growth_rule_at(m.scene, tip)) {
     const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
-    rule_ = growth_rule(scene_, tip.crack);
     particle_ = scene_.cell / body.particles_per_cell;
     thickness_ = s_.thickness[tip.body];
     const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
-    limit_ = rule_->speed_limit > 0 ? rule_->speed_limit : wave;
+    limit_ = rule_.speed_limit > 0 ? rule_.speed_limit : wave;
     start_limit_ = std::max(limit_, wave);
     now_ = s_.clock.time + s_.clock.dt;
     x_ = s_.cracks.plane[s_.cracks.end_point(tip.crack, tip.last)];
@@ -97,7 +101,7 @@ class Growth {
   /// so does one at rest that is driven, though the least contour takes in too little of the solid to say where to.
   std::optional<Vec2> next_way() const {
     if (tip_.sound)
-      return growth_direction(*rule_, tip_, ahead_);
+      return growth_direction(rule_, tip_, ahead_);
     return tip_.running || load_now() >= 1 ? way_out() : std::nullopt;
   }
 
@@ -105,12 +109,12 @@ class Growth {
   /// mean something.
   double load_now() const {
     if (tip_.sound)
-      return growth_load(*rule_, tip_);
+      return growth_load(rule_, tip_);
     Tip by_J = tip_;
     by_J.drive_I = tip_.K_I;
     by_J.drive_II = tip_.K_II;
     by_J.release = tip_.J;
-    return std::min(growth_load(*rule_, tip_), growth_load(*rule_, by_J));
+    return std::min(growth_load(rule_, tip_), growth_load(rule_, by_J));
   }
 
   /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
@@ -238,10 +242,12 @@ class Growth {
   void look_for_other_solids(Vec2 x) {
     if (scene_.bodies.size() < 2)
       return;
+    const auto material = [&](int m) -> const Material& { return scene_.materials[static_cast<size_t>(m)]; };
     bool mixed = false;
     each_particle_near(s_, x, 0.5 * scene_.fracture.contour * scene_.cell, [&](int k) {
       const int body = s_.particles.body[k];
-      mixed |= scene_.bodies[static_cast<size_t>(body)].material != tip_.material || s_.thickness[body] != thickness_;
+      mixed |= s_.thickness[body] != thickness_ ||
+               !elastically_alike(material(scene_.bodies[static_cast<size_t>(body)].material), material(tip_.material));
     });
     if (mixed && report_.mixed++ == 0)
       report_.place[4] = x;
@@ -302,7 +308,7 @@ class Growth {
   FractureReport& report_;
   Tip& tip_;
   const std::vector<Rectangle>& boxes_;
-  const GrowthRule* rule_;
+  const GrowthRule rule_;
   double particle_, thickness_;
   double limit_, start_limit_;  ///< m/s, of a tip that runs, and of what one at rest may have come to
   double now_;                  ///< at the end of this step

@@ -61,7 +61,14 @@ struct Material {
   double E = 0;        ///< Young's modulus, Pa
   double nu = 0;       ///< Poisson's ratio
   double density = 0;  ///< kg/m^3
+  double K_Ic = 0;     ///< Pa m^0.5, and
+  double J_Ic = 0;     ///< J/m^2: toughness of tips in it whose growth rule has none; 0: not said
 };
+
+/// Whether waves and the fields around cracks see no difference between two materials.
+inline bool elastically_alike(const Material& a, const Material& b) {
+  return a.law == b.law && a.E == b.E && a.nu == b.nu && a.density == b.density;
+}
 
 struct Body {
   std::string name;
@@ -157,7 +164,8 @@ struct FractureReading {
 /// When and where a crack grows.
 struct GrowthRule {
   GrowthCriterion criterion = GrowthCriterion::k_max;
-  double toughness = 0;  ///< K_Ic, Pa m^0.5 (k_max), or J_Ic, J/m^2 (critical_j)
+  /// K_Ic, Pa m^0.5 (k_max), or J_Ic, J/m^2 (critical_j); 0: that of the material around the tip
+  double toughness = 0;
   GrowthDirection direction = GrowthDirection::hoop;
   Vec2 heading;            ///< direction = fixed
   double speed_limit = 0;  ///< m/s; 0 means the Rayleigh speed

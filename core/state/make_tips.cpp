@@ -97,4 +97,12 @@ const GrowthRule* growth_rule(const Scene& scene, int crack) {
   return line.growth ? &*line.growth : scene.growth ? &*scene.growth : nullptr;
 }
 
+GrowthRule growth_rule_at(const Scene& scene, const Tip& tip) {
+  GrowthRule rule = *growth_rule(scene, tip.crack);
+  const Material& material = scene.materials[static_cast<size_t>(tip.material)];
+  if (!(rule.toughness > 0))
+    rule.toughness = rule.criterion == GrowthCriterion::k_max ? material.K_Ic : material.J_Ic;
+  return rule;
+}
+
 }  // namespace riven

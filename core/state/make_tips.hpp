@@ -24,4 +24,7 @@ std::vector<Tip> make_tips(const Scene& scene);
 /// The rule by which a crack grows: its own, else the scene's; null if it does not grow.
 const GrowthRule* growth_rule(const Scene& scene, int crack);
 
+/// That by which a tip grows, whose crack must: with the toughness of its material where the rule itself has none.
+GrowthRule growth_rule_at(const Scene& scene, const Tip& tip);
+
 }  // namespace riven

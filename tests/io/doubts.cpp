@@ -73,6 +73,20 @@ TEST(Doubts, NameGrowthOnFlip) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameToughnessesThatNoCrackGoesBy) {
+  Scene s = sound_scene();
+  s.transfer = Transfer::fmpm;
+  s.materials[0].K_Ic = 1e6;
+  expect_doubt(s, "material steel", "no crack grows by its K_Ic");
+  s.growth = GrowthRule{};
+  EXPECT_TRUE(doubts(s).empty());
+  s.growth->toughness = 2e6;
+  expect_doubt(s, "material steel", "no crack grows by its K_Ic");
+  s.growth->toughness = 0;
+  s.materials[0].J_Ic = 100;
+  expect_doubt(s, "material steel", "no crack grows by its J_Ic");
+}
+
 TEST(Doubts, NameCracksThatMayOutrunSurfaceWaves) {
   Scene s = sound_scene();
   s.growth = GrowthRule{};

@@ -388,3 +388,15 @@ toughness = "0.5 MPa sqrt(m)"
   EXPECT_DOUBLE_EQ(own.speed_limit, 500);
   EXPECT_FALSE(s.cracks[1].grows);
 }
+
+TEST(SceneRead, ToughnessOfMaterials) {
+  EXPECT_EQ(read(good_scene).materials[0].K_Ic, 0);
+  std::string text = good_scene;
+  const std::string density = "density = ";
+  text.insert(text.find(density), "K_Ic = \"0.9 MPa m^0.5\"\nJ_Ic = \"0.3 N/mm\"\n");
+  const Scene s = read(text + "[growth]\n");
+  EXPECT_DOUBLE_EQ(s.materials[0].K_Ic, 0.9e6);
+  EXPECT_DOUBLE_EQ(s.materials[0].J_Ic, 300);
+  ASSERT_TRUE(s.growth);
+  EXPECT_EQ(s.growth->toughness, 0);
+}

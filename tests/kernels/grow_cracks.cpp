@@ -474,6 +474,30 @@ TEST(GrowCracks, SayThatTheyComeToAnotherMaterial) {
   }
 }
 
+/// Where the rule has no toughness that of the material around the tip holds: K_I = 2 takes it through one of 1.5 and
+/// not through one of 2.5, and that the two are elastically alike leaves nothing to be said of the contour.
+TEST(GrowCracks, ByTheToughnessOfTheirMaterial) {
+  for (const bool by_J : {false, true}) {
+    Scene scene = plate({crack("edge", {{-1, 8.2}, {6, 8.2}})}, 25);
+    scene.growth->toughness = 0;
+    scene.growth->criterion = by_J ? GrowthCriterion::critical_j : GrowthCriterion::k_max;
+    scene.materials[0].K_Ic = 1.5;
+    scene.materials[0].J_Ic = 2.5;
+    scene.materials.push_back({"tough", LawKind::linear_elastic, 1e6, 0.3, 1000, 2.5, 3.5});
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[0].region = Rectangle{{0, 0}, {12, 16}};
+    scene.bodies[1].region = Rectangle{{12, 0}, {24, 16}};
+    scene.bodies[1].name = "right";
+    scene.bodies[1].material = 1;
+    Driven run(scene, open);
+    run.steps(200);
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest}));
+    EXPECT_NEAR(run.end(0, true).x, 12, 0.6);
+    EXPECT_NEAR(run.m.state.tips[0].load, by_J ? std::sqrt(3 / 3.5) : 2 / 2.5, 1e-12);
+    EXPECT_EQ(run.m.fracture.mixed, 0);
+  }
+}
+
 TEST(GrowCracks, TheSameOnEverySpace) {
   std::vector<std::vector<Vec2>> first;
   for (const test::SpaceCase& where : test::space_cases()) {
