@@ -140,15 +140,14 @@ void apply_tractions(const exec::Space& space, ScatterKind kind, State<Real, 2>&
 }
 
 template <class Real>
-void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& forces, bool moves_again,
-                      State<Real, 2>& s) {
+void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& forces, bool again, State<Real, 2>& s) {
   const Grid<Real>& grid = s.grid;
   const long points = forces.size() / 2;
   exec::Array<double> powers(points);
   exec::launch_some(
       space, points, points_of_task,
-      [force = exec::data(forces), power = exec::data_to_fill(powers),
-       q = exec::data(moves_again ? grid.again : grid.q), moves_again, dt = s.clock.dt] RIVEN_KERNEL(long k) {
+      [force = exec::data(forces), power = exec::data_to_fill(powers), q = exec::data(grid.q),
+       last = again ? exec::data(grid.again) : nullptr, dt = s.clock.dt] RIVEN_KERNEL(long k) {
         double sum = 0;
         for (int part = 0; part < 4; ++part) {  // two halves, two sides
           const PointForces& half = force[2 * k + part / 2];
@@ -156,9 +155,10 @@ void settle_tractions(const exec::Space& space, const exec::Array<PointForces>& 
             continue;
           const PointForces::Surface& at = half.surface[part % 2];
           for (int n = 0; n < PointForces::nodes; ++n) {
-            const Real* v = q + 4L * at.slot[n];
-            sum += dot(at.force[n], moves_again ? Vec2{double(v[2]), double(v[3])}
-                                                : Vec2{v[0] - 0.5 * dt * v[2], v[1] - 0.5 * dt * v[3]});
+            const long slot = 4L * at.slot[n];
+            const Vec2 after{double(q[slot]), double(q[slot + 1])}, a{double(q[slot + 2]), double(q[slot + 3])};
+            const Vec2 before = after - dt * a, v2 = last ? Vec2{double(last[slot]), double(last[slot + 1])} : after;
+            sum += 0.5 * dot(at.force[n], before + v2);
           }
         }
         power[k] = sum;

@@ -35,10 +35,12 @@ inline namespace RIVEN_SIDE {
 template <class Shape, class Real>
 void apply_tractions(const exec::Space&, ScatterKind, State<Real, 2>&, exec::Array<PointForces>&);
 
-/// Once cracks have moved: books the work that pressures did and lets damage follow the openings. Grid::q holds
-/// [vx vy ax ay], or Grid::again [v w] where `moves_again` (Plan).
+/// Once cracks have moved: books the work that pressures did and lets damage follow the openings. Of a force F on a
+/// node that is dt F . (v + v')/2, with v before the update of Grid::q = [vx vy ax ay] and v' after it or, where
+/// `again`, that of Grid::again = [v' .], which particles have by then: by any other, as that which faces move by, work
+/// is done that no particle gets.
 template <class Real>
-void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, bool moves_again, State<Real, 2>&);
+void settle_tractions(const exec::Space&, const exec::Array<PointForces>&, bool again, State<Real, 2>&);
 
 }  // namespace RIVEN_SIDE
 

@@ -72,7 +72,8 @@ long fastest_particle(const Particles<Real, 2>& p) {
 }
 
 double work_lag(const Plan& plan, long step) {
-  return plan.worked_on() ? 0.5 / static_cast<double>(std::max(1L, step)) : 0;
+  const bool at_an_end = plan.update == StressUpdate::usl || plan.update == StressUpdate::usf;
+  return plan.worked_on() ? (at_an_end ? 2.2 : 0.5) / static_cast<double>(std::max(1L, step)) : 0;
 }
 
 template <class Real>

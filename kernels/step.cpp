@@ -157,7 +157,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.contact_waits, "watch contact", "contact", watch_contact<Real>);
   add(p.cracks, "move cracks", "cracks", move_with_grid<Real>);
   add(p.tractions, "tractions: work and damage", "tractions",
-      [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.plan.cracks_move_again(), m.state); });
+      [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.plan.extrapolate_again(), m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {

@@ -34,8 +34,7 @@ struct WatchedText {
 /// In the order of Watched.
 inline constexpr WatchedText watched_texts[watched_figures] = {
     {"energy comes or goes, and nothing accounts for it, or contact makes it", "of the largest energy",
-     "a smaller solver.cfl; solver.stress_update = \"usavg\"; contact.law = \"ignored\" where faces stay open: those "
-     "that bear tractions creep in contact with fmpm and xpic"},
+     "a smaller solver.cfl; solver.stress_update = \"usavg\"; contact.law = \"ignored\" where faces stay open"},
     {"momentum comes or goes", "of the largest momentum",
      "nothing in a scene should do this: report it, with the scene"},
     {"angular momentum comes or goes", "of the largest",
