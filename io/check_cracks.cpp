@@ -119,6 +119,19 @@ void check_doubles(const Scene& s) {
              "a line that crosses itself, at most", "points in their order along the crack");
 }
 
+/// No part of a crack may lie on a symmetry plane: it would have but one face, and that could not move.
+void check_planes(const Scene& s, const CrackLine& c) {
+  const auto on = [&](const SymmetryPlane& p, Vec2 x) {
+    return std::abs((p.axis == 0 ? x.x : x.y) - p.position) < 1e-6 * s.cell;
+  };
+  for (const SymmetryPlane& p : s.symmetry)
+    for (size_t i = 1; i < c.points.size(); ++i)
+      if (on(p, c.points[i - 1]) && on(p, c.points[i]))
+        refuse(s, "crack " + c.name, "the crack lies on a symmetry plane, which holds its face",
+               text(c.points[i - 1]) + " to " + text(c.points[i]), "cracks that end on the plane, or lie off it",
+               "both halves of the solid, without this [[symmetry]]");
+}
+
 /// Growth asked for must have a tip to grow from, and J one to be found at.
 void check_tips(const Scene& s) {
   const bool cracks_grow = std::any_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth; });
@@ -199,6 +212,7 @@ void check_cracks(const Scene& s) {
     if (segments > most_segments)
       refuse(s, "crack " + c.name, "the cracks have too many segments", fmt::format("{:.3g} with this crack", segments),
              fmt::format("at most {:.0e} segments", most_segments), "a larger resolution");
+    check_planes(s, c);
     if (!meets_body(s, c, spacing))
       refuse(s, "crack " + c.name, "no part of the crack lies in a body",
              text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body");

@@ -128,13 +128,37 @@ const Body* other_solid_near(const Scene& s, const Tip& tip, Vec2 at) {
   return nullptr;
 }
 
+/// How far from a tip the solid ends, m, along the axis that is farther: none beyond the least J contour.
+std::optional<double> end_of_solid(const Scene& s, Vec2 tip) {
+  constexpr double least_contour = 2;  // cells to each side
+  constexpr int parts = 8;             // of that
+  const double step = least_contour * s.cell / parts;
+  for (int ring = 1; ring <= parts; ++ring)
+    for (int k = -ring; k <= ring; ++k)
+      for (const Vec2 d : {Vec2{double(k), double(-ring)},
+                           {double(k), double(ring)},
+                           {double(-ring), double(k)},
+                           {double(ring), double(k)}})
+        if (body_at(s, tip + (1 - 1e-6) * step * d) < 0)
+          return step * ring;
+  return std::nullopt;
+}
+
 void doubt_tips(const Scene& s, std::vector<Doubt>& list) {
-  if (s.bodies.size() < 2)
-    return;
+  const bool found = s.fracture.asked || s.growth ||
+                     std::any_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth; });
   for (const Tip& tip : make_tips(s)) {
     const CrackLine& crack = s.cracks[static_cast<size_t>(tip.crack)];
     const char* const end = tip.last ? "last" : "first";
-    const Body* const other = other_solid_near(s, tip, tip.last ? crack.points.back() : crack.points.front());
+    const Vec2 at = tip.last ? crack.points.back() : crack.points.front();
+    if (const auto far = found ? end_of_solid(s, at) : std::nullopt)
+      list.push_back(
+          {place(s, "crack " + crack.name),
+           fmt::format("the solid ends less than {:.3g} cells from the {} tip, within its least J contour: J and K "
+                       "are not resolved there",
+                       *far / s.cell, end),
+           "try smaller cells"});
+    const Body* const other = s.bodies.size() < 2 ? nullptr : other_solid_near(s, tip, at);
     if (other && !alike_at_tips(s, other->material, tip.material))
       list.push_back({place(s, "crack " + crack.name),
                       fmt::format("the J contour of the {} tip takes in material {}, and its K are those of one of {}",

@@ -13,9 +13,10 @@ struct Doubt {
   std::string what, hint;
 };
 
-/// Cracks too short to open, tips beside another material, contours too small for J, cohesive zones too short for the
-/// cells, bodies and holes that particles do not make up, grips away from all bodies, tractions on oblique edges and in
-/// holes, and materials whose density or wave speed no solid has. `s`: a scene that passes check_scene.
+/// Cracks too short to open, tips beside another material or the end of the solid, contours too small for J, cohesive
+/// zones too short for the cells, bodies and holes that particles do not make up, grips away from all bodies, tractions
+/// on oblique edges and in holes, and materials whose density or wave speed no solid has. `s`: a scene that passes
+/// check_scene.
 std::vector<Doubt> doubts(const Scene& s);
 /// Of these, those of tractions.
 void doubt_loads(const Scene& s, std::vector<Doubt>& list);

@@ -188,7 +188,7 @@ class Run {
       any = true;
       const WatchedText& text = text_of(which);
       fmt::print(stderr, "riven: warning: step {}, at ({:.4g}, {:.4g}) m: {}: {:.3g}{}{}\n", w.first, w.first_place.x,
-                 w.first_place.y, text.what, w.worst, *text.unit ? " " : "", text.unit);
+                 w.first_place.y, text.what, w.value, *text.unit ? " " : "", text.unit);
       fmt::print(stderr, "  limit: {:.3g} (limits.warn.{})\n  try:   {}\n",
                  m_.scene.limits.warn[static_cast<size_t>(which)], name, what_helps(text.advice, m_.scene));
     }

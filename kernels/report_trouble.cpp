@@ -15,7 +15,7 @@ template <class Real>
 std::string where(const State<Real, 2>& s, long i) {
   const auto& p = s.particles;
   return fmt::format("step {}, time {:.6g} s, particle {} (body {}) at ({:.6g}, {:.6g}) m", s.clock.step, s.clock.time,
-                     p.id[i], p.body[i] + 1, p.x[0][i], p.x[1][i]);
+                     p.id[i], p.body[i], p.x[0][i], p.x[1][i]);
 }
 
 constexpr const char* cures =

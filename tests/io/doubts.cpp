@@ -73,6 +73,20 @@ TEST(Doubts, NameGrowthOnFlip) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameTipsNextToTheEndOfTheSolid) {
+  Scene s = sound_scene();
+  Vec2& tip = s.cracks[0].points.back();
+  tip = {tip.x, 40e-3 - 2.1 * s.cell};
+  EXPECT_TRUE(doubts(s).empty());
+  tip.y = 40e-3 - 1.4 * s.cell;
+  s.fracture.asked = false;
+  EXPECT_TRUE(doubts(s).empty());
+  s.fracture.asked = true;
+  expect_doubt(s, "crack edge", "less than 1.5 cells from the last tip");
+  s.bodies[0].holes = {Disk{{tip.x, tip.y - 1.5 * s.cell}, 0.9 * s.cell}};
+  expect_doubt(s, "crack edge", "less than 0.75 cells from the last tip");
+}
+
 TEST(Doubts, NameToughnessesThatNoCrackGoesBy) {
   Scene s = sound_scene();
   s.transfer = Transfer::fmpm;
@@ -122,13 +136,13 @@ TEST(Doubts, NameBodiesWhoseParticlesAreNotWhatWasDrawn) {
   s.bodies[0].region = Rectangle{{0, 0}, {40e-3, 40.1e-3}};
   EXPECT_TRUE(doubts(s).empty());
   s.grips.clear();
+  s.fracture.asked = false;
   s.bodies[0].region = Rectangle{{0, 19e-3}, {40e-3, 22.2e-3}};  // six rows of half a millimetre
   expect_doubt(s, "body plate", "6 % less");
   s.bodies[0].region = Rectangle{{0.25e-3, 19.25e-3}, {40.25e-3, 22.25e-3}};  // its edges through particles
   EXPECT_TRUE(doubts(s).empty());
   s.bodies[0].region = Disk{{20e-3, 20e-3}, 5e-3};
   s.cracks.clear();
-  s.fracture.asked = false;
   EXPECT_TRUE(doubts(s).empty());
   s.bodies[0].region = Polygon{{{0, 0}, {0.9e-3, 0}, {0, 1e-3}}};
   expect_doubt(s, "body plate", "than what was drawn");
