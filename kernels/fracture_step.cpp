@@ -22,8 +22,8 @@ namespace {
 /// have moved since they were sorted.
 constexpr double around_contour = 9;
 
-/// Cells from a tip to where another crack crosses its own from which K is right, to 7 % and 5 degrees. By 1.2 cells it
-/// is off by up to 10 % and 14 degrees, by 0.8 by up to 36 % and 17.
+/// Cells from a tip to where another crack crosses its own, or its own ends on another, from which K is right, to 7 %
+/// and 5 degrees. By 1.2 cells it is off by up to 10 % and 14 degrees, by 0.8 by up to 36 % and 17.
 constexpr double resolved = 1.5;
 
 void count(long& counter, Vec2& place, Vec2 here) {
@@ -115,11 +115,13 @@ class JSearch {
     m_.fracture.crossed += task.sums.crossed;
   }
 
-  /// Does another crack cross the tip's so near to it that the grid does not resolve what lies beyond?
+  /// Does another crack cross the tip's, or the tip's begin on it, so near that the grid does not resolve what lies
+  /// beyond?
   bool is_cut_short(const Tip& tip, const TipTask& task) const {
     const double h = m_.scene.cell, whole = task.sums.whole;
     const Vec2 other = s_.cracks.plane[s_.cracks.end_point(tip.crack, !tip.last)];
-    return whole < resolved * h && norm(other - task.domain.tip) > whole + 0.5 * h;
+    const double length = norm(other - task.domain.tip);
+    return task.way.host >= 0 ? length < resolved * h : whole < resolved * h && length > whole + 0.5 * h;
   }
 
   void settle(DueTip& d, const TipTask& task) const {

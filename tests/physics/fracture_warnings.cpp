@@ -74,18 +74,23 @@ TEST(FractureWarnings, ACrackInsideOfAContourIsLeftOut) {
   EXPECT_GT(std::abs(not_left_out.J / near.J - 1), 0.04);
 }
 
-/// What a crack has beyond another one is not resolved up to 1.5 cells.
+/// What a crack has beyond another one, which it crosses or begins on, is not resolved up to 1.5 cells.
 TEST(FractureWarnings, AShortPieceBeyondACrackAcrossIsNotResolved) {
-  for (const auto& [cells, told] : {std::pair{0.6, true}, {1.4, true}, {1.7, false}}) {
-    Scene scene = shipped("sent", coarse(1));
-    CrackLine across;
-    across.name = "across";
-    across.points = {{0.025 - 0.001 * cells, -0.004}, {0.025 - 0.001 * cells, 0.004}};
-    scene.cracks.push_back(across);
-    Plate plate(scene);
-    plate.hold();
-    EXPECT_EQ(warned(plate.simulation(), "less than 1.5 cells behind a tip"), told) << cells << " cells beyond";
-  }
+  for (const bool crosses : {true, false})
+    for (const auto& [cells, told] : {std::pair{0.6, true}, {1.4, true}, {1.7, false}}) {
+      Scene scene = shipped("sent", coarse(1));
+      CrackLine across;
+      across.name = "across";
+      const double x = 0.025 - 0.001 * cells;
+      across.points = {{x, -0.004}, {x, 0.004}};
+      if (!crosses)
+        scene.cracks[0].points.front() = {x, 0};
+      scene.cracks.push_back(across);
+      Plate plate(scene);
+      plate.hold();
+      EXPECT_EQ(warned(plate.simulation(), "less than 1.5 cells behind a tip"), told)
+          << cells << " cells beyond, " << crosses;
+    }
 }
 
 /// A cell and a half before a grip, where the contour is drawn in, a tip may lie on a column of nodes, which are
