@@ -38,8 +38,10 @@ std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   say("a J contour leaves the solid however small", j.unsound, j.place[2]);
   say("a bend next to the tip is sharp or has faces pressed together: J and K are not resolved there", j.bent,
       j.place[3]);
-  say("another crack crosses, or the tip's own begins on it, less than 1.5 cells behind a tip: J and K are not resolved "
-      "there", j.cut, j.place[5]);
+  say("another crack crosses, or the tip's own begins on it, less than 1.5 cells behind a tip: J and K are not "
+      "resolved "
+      "there",
+      j.cut, j.place[5]);
   say("a crack grew to where its J contour takes in another material or thickness: J and K are no longer those of its "
       "tip alone",
       j.mixed, j.place[4]);
