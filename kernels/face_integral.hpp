@@ -9,10 +9,10 @@
 // Of the target crack's own faces those in line with its tip have no share of the energy; what they bear is counted by
 // how they open (own_faces.hpp), which holds up to the tip where stresses on faces are beyond any fit. From
 // BranchCut::bent on they are like those of other cracks; only that their strain energy is that of the fitted tension
-// along them. The particles that a tip has passed keep stresses that cancel on the grid: their energies, which are
-// squares, do not, and would make J of a tip that has turned by one segment 7 % low. Next to a tip the tension is that
-// of the first segment clear of it.
-// A segment whose ends another crack has drawn apart spans that crack's opening, and has no solid beside it.
+// along them and of what a law puts on them. The particles that a tip has passed keep stresses that cancel on the grid:
+// their energies, which are squares, do not, and would make J of a tip that has turned by one segment 7 % low. Next to
+// a tip the tension is that of the first segment clear of it. A segment whose ends another crack has drawn apart spans
+// that crack's opening, and has no solid beside it.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,7 @@ class FaceIntegral {
       else
         see(false);
     }
+    task_.sums.steep = task_.sums.steep || (loaded_ && task_.sums.crossed);
     note_bends(lists.segments);
   }
 
@@ -97,15 +98,16 @@ class FaceIntegral {
   }
 
   void add_own(const Segment& s) {
-    const bool loaded = own_.bears(s.k);
-    if (loaded)
+    const bool loaded = own_.bears(s.k), off_line = is_bent(s);
+    if (loaded && off_line)
+      own_.add_tractions_along(s.k, s.q, -turned(s.normal));
+    else if (loaded)
       own_.add_tractions(s.k, s.q);
-    task_.sums.loaded = task_.sums.loaded || loaded;
-    const bool off_line = is_bent(s);
+    loaded_ = loaded_ || loaded;
     // tractions of laws are counted already, however little the faces have opened
     const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
-    see(!comes_back(s) && (!off_line || (task_.cut && !loaded && !meeting.holds)));
+    see(!comes_back(s) && (!off_line || (task_.cut && !meeting.holds)));
     task_.sums.steep = task_.sums.steep || off_line;
     if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
@@ -116,9 +118,12 @@ class FaceIntegral {
   /// Where the tip's own crack ends within the domain the known fields are torn in the solid: a mouth is no matter,
   /// another crack is, unless the cut goes on along that.
   void add_other(const Segment& s) {
-    const Meeting meeting = meet(s, touching);
-    const bool host = s.crack == task_.way.host;
-    see(task_.passes && !own_.bears(s.k) && !(host && meeting.holds));
+    const bool loaded = own_.bears(s.k), host = s.crack == task_.way.host;
+    const Meeting meeting = loaded ? Meeting{} : meet(s, touching);
+    if (loaded)
+      own_.add_tractions_along(s.k, s.q, -turned(s.normal));
+    loaded_ = loaded_ || loaded;
+    see(task_.passes && !(host && meeting.holds));
     task_.sums.steep = task_.sums.steep || host || meeting.holds;
     add_faces(s, meeting);
   }
@@ -142,7 +147,7 @@ class FaceIntegral {
       return;
     double far = 0;
     for (Segment at = *first; !shut_ && far < pressed_within * h_ && behind(at); far += at.length)
-      shut_ = meet(at, touching).holds;
+      shut_ = !own_.bears(at.k) && meet(at, touching).holds;
     task_.sums.pressed = shut_;
     for (const Segment& s : segments)
       if (is_bent(s) && (shut_ || is_sharp(s)))
@@ -276,16 +281,21 @@ class FaceIntegral {
         const Vec2 n = (out * s.length) * s.normal, released{E[0] * n.x + E[1] * n.y, E[2] * n.x + E[3] * n.y};
         task_.sums.faces += own_meet ? dot(released, s.normal) * s.normal : released;
         if (!own_meet)
-          known_.add_beside(s, side, meeting.face[side == Side::below], false);
+          known_.add_beside(s, side, FaceStress(meeting.face[side == Side::below], s.normal), {},
+                            meeting.face[side == Side::below][face_rotation]);
       } else if (s.crack == task_.crack) {
         if (const auto face = own_face(s, side)) {
-          task_.sums.faces += (out * face->energy(task_.solid->E)) * turned(first);
-          known_.add_own(s, side, *face);
+          task_.sums.faces += (out * face->through(*task_.solid)) * turned(first);
+          known_.add_own(s, side, *face, is_bent(s) ? borne_by(s.k) : Vec2{});
         }
       } else if (const auto face = beside(s, side)) {
         // carried on past a corner, where it ends, it could become negative
-        task_.sums.faces += (out * std::max(0.0, (*face)[face_energy])) * turned(first);
-        known_.add_beside(s, side, *face, true);
+        const double energy = std::max(0.0, (*face)[face_energy]);
+        const Vec2 borne = borne_by(s.k);
+        const FaceStress stress(FaceStress(*face, s.normal).along, borne, s.normal);
+        const double through = energy - FaceStrain(stress, *task_.solid).work_across(stress, (*face)[face_rotation]);
+        task_.sums.faces += (out * through) * turned(first);
+        known_.add_beside(s, side, stress, borne, (*face)[face_rotation]);
       }
     }
   }
@@ -298,13 +308,17 @@ class FaceIntegral {
     return face;
   }
 
-  /// On a face of the tip's own crack: the tension along it is all that the solid bears there.
-  std::optional<FreeFace> own_face(const Segment& s, Side side) {
+  /// What the law of a crack puts on the upper face of a segment, Pa.
+  Vec2 borne_by(int k) const { return own_.bears(k) ? own_.traction_of_law(k) : Vec2{}; }
+
+  /// On a face of the tip's own crack that is not pressed against the other.
+  std::optional<OpenFace> own_face(const Segment& s, Side side) {
     const Segment at = clear_of_tip(s, disturbed);
     FaceValues face;
     if (!fields_.at(middle_of_face(at.k, side), at.crack, at.middle, at.normal, side, face))
       return std::nullopt;
-    return FreeFace{face[face_kinetic], FaceStress(face, at.normal).along, face[face_rotation]};
+    return OpenFace{face[face_kinetic], FaceStress(FaceStress(face, at.normal).along, borne_by(s.k), s.normal),
+                    face[face_rotation]};
   }
 
   /// Has contact acted on one of the four nodes around a place?
@@ -350,6 +364,7 @@ class FaceIntegral {
   KnownOnFaces known_;
   std::optional<Meeting> near_tip_;  ///< once asked for
   bool shut_ = false;                ///< some faces of the tip's own crack are pressed together
+  bool loaded_ = false;              ///< some faces bear tractions of a law
 };
 
 }  // namespace riven

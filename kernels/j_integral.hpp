@@ -39,7 +39,6 @@ struct TipSums {
   bool shut = false;                                       ///< faces next to the tip are pressed together
   bool crossed = false;                                    ///< another crack lies in the domain
   bool steep = false;       ///< energies along faces there are steeper than the grid resolves
-  bool loaded = false;      ///< faces of the tip's own crack there bear tractions
   bool blind = false;       ///< faces there bear what the interaction integral does not see, or it cannot follow them
   std::vector<Vec2> bends;  ///< of its points where it is not, those that the contour should leave out
   bool pressed = false;     ///< there, as faces are pressed together next to them

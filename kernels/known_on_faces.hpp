@@ -1,8 +1,9 @@
 // What faces of cracks out of line with a tip add to its interaction integrals. Of
 //   int q [ W12 n_1 - (s1 n) . du2/dx_1 - (s2 n) . du1/dx_1 ] ds,   W12 = s1 : e2,
 // with s1, u1 the actual fields, s2, u2 the known ones, x_1 along the heading and n out of the solid, the second term
-// is nothing on a free face; on faces of another crack that are pressed together, on either side of which the known
-// fields are the same, it cancels. The stress and the rotation w of the solid say all of du1: along and across the face
+// is what a face bears times the slope of the known motion, and nothing on a free one; on faces of another crack that
+// are pressed together, on either side of which the known fields are the same, it cancels. The stress and the rotation
+// w of the solid say all of du1: along and across the face
 //   du1/ds = (e_ss, e_sn + w),  du1/dn = (e_sn - w, e_nn).
 // With a tip that runs W12 has the energy of motion besides, rho c^2 du1/dx_1 . du2/dx_1.
 // For curved cracks the same is found, in curved coordinates, by Gosz and Moran, Eng. Fract. Mech. 69 (2002) 299-319.
@@ -38,36 +39,58 @@ struct FaceStress {
     across = xx * x * x + yy * y * y + 2 * xy * x * y;
     shear = (xx - yy) * x * y + xy * (y * y - x * x);
   }
-  /// Of a free face.
-  explicit FaceStress(double tension) : along(tension) {}
+  /// Of a face under this tension along it that bears `traction` where it is the upper one, and the opposite where it
+  /// is the lower one; of a free one without.
+  explicit FaceStress(double tension, Vec2 traction = {}, Vec2 normal = {})
+      : along(tension), across(-dot(traction, normal)), shear(dot(traction, turned(normal))) {}
 };
 
-/// A free face: the tension along it is all that the solid bears there.
-struct FreeFace {
-  double kinetic, tension;  ///< Pa
-  double rotation;          ///< against that of the tip
-  double energy(double E) const { return std::max(0.0, kinetic) + tension * tension / (2 * E); }
+/// The strains and the slopes along the normal that go with them: du/dn = (e_sn - w, e_nn).
+struct FaceStrain {
+  double ss, nn, sn;
+  FaceStrain(const FaceStress& s, const PlaneElasticity& solid) {
+    const double lateral = (3 - solid.kappa) / (1 + solid.kappa);  // nu, in plane strain nu / (1 - nu)
+    ss = (s.along - lateral * s.across) / solid.E;
+    nn = (s.across - lateral * s.along) / solid.E;
+    sn = s.shear / (2 * solid.mu);
+  }
+  /// (s n) . du/dn, Pa.
+  double work_across(const FaceStress& s, double w) const { return s.across * nn + s.shear * (sn - w); }
+};
+
+/// An open face: the solid bears the tension along it, and what the face itself bears.
+struct OpenFace {
+  double kinetic;  ///< Pa
+  FaceStress stress;
+  double rotation;  ///< against that of the tip
+
+  /// W + K - (s n) . du/dn, Pa: what goes through the face along its normal.
+  double through(const PlaneElasticity& solid) const {
+    const FaceStrain e(stress, solid);
+    const double strain = 0.5 * (stress.along * e.ss + stress.across * e.nn) + stress.shear * e.sn;
+    return std::max(0.0, kinetic) + strain - e.work_across(stress, rotation);
+  }
 };
 
 class KnownOnFaces {
  public:
   KnownOnFaces(const Cracks& cracks, const OwnFaces& own, TipTask& task) : cracks_(cracks), own_(own), task_(task) {}
 
-  /// Of another crack, by the values next to the face.
-  void add_beside(const FaceSegment& s, Side side, const FaceValues& values, bool free) {
-    if (!task_.interaction)
-      return;
-    const FaceStress stress(values, s.normal);
-    add(s, s.out(side), free ? FaceStress(stress.along) : stress, values[face_rotation], sign_beside(s, side));
+  /// Of another crack. `borne`: Pa, traction of a law on the upper face.
+  void add_beside(const FaceSegment& s, Side side, const FaceStress& stress, Vec2 borne, double w) {
+    if (task_.interaction)
+      add(s, s.out(side), stress, (side == Side::above ? s.length : -s.length) * borne, w, sign_beside(s, side));
   }
 
   /// Of the tip's own crack. Particles that the tip has passed keep what cancels on the grid, and the faces themselves
-  /// tell better how they have turned; but for those that another crack may have parted.
-  void add_own(const FaceSegment& s, Side side, const FreeFace& face) {
+  /// tell better how they have turned; but for those that another crack may have parted. `borne`: Pa, traction on the
+  /// upper face of a segment, unless own_faces.hpp counts what that does.
+  void add_own(const FaceSegment& s, Side side, const OpenFace& face, Vec2 borne) {
     if (!task_.cut)
       return;
     const double left = BranchCut::sign_on_left(in_frame(s.middle - task_.domain.tip));
-    add(s, s.out(side), FaceStress(face.tension), own_.meets_other(s.k) ? face.rotation : rotation(s.k, side),
+    add(s, s.out(side), face.stress, (side == Side::above ? s.length : -s.length) * borne,
+        own_.meets_other(s.k) ? face.rotation : rotation(s.k, side),
         (side == Side::above) == task_.last ? left : -left);
   }
 
@@ -104,14 +127,12 @@ class KnownOnFaces {
     return cross(laid, face[k + 1] - face[k]) / dot(laid, laid);
   }
 
-  void add(const FaceSegment& face, Vec2 out_of_solid, FaceStress stress, double w, double sign) {
+  /// `force`: N/m, what acts on the face.
+  void add(const FaceSegment& face, Vec2 out_of_solid, const FaceStress& stress, Vec2 force, double w, double sign) {
     const PlaneElasticity& solid = *task_.solid;
-    const Vec2 n = in_frame(face.normal), s{n.y, -n.x}, out = in_frame(out_of_solid);
-    const auto [along, across, shear] = stress;
-    const double lateral = (3 - solid.kappa) / (1 + solid.kappa);  // nu, in plane strain nu / (1 - nu)
-    const double e_ss = (along - lateral * across) / solid.E, e_nn = (across - lateral * along) / solid.E;
-    const double e_sn = shear / (2 * solid.mu);
-    const Vec2 slope = s.x * (e_ss * s + (e_sn + w) * n) + n.x * ((e_sn - w) * s + e_nn * n);  // du1/dx_1
+    const Vec2 n = in_frame(face.normal), s{n.y, -n.x}, out = in_frame(out_of_solid), acts = in_frame(force);
+    const FaceStrain e(stress, solid);
+    const Vec2 slope = s.x * (e.ss * s + (e.sn + w) * n) + n.x * ((e.sn - w) * s + e.nn * n);  // du1/dx_1
     const double running = task_.running.speed / solid.shear_speed, inertia = solid.mu * running * running;
     const AuxiliaryFields known = auxiliary_fields(solid, task_.running, in_frame(face.middle - task_.domain.tip));
     for (int mode = 0; mode < 2; ++mode) {
@@ -119,10 +140,11 @@ class KnownOnFaces {
       const auto strain = [&](Vec2 u, Vec2 v) {
         return a.exx * u.x * v.x + a.eyy * u.y * v.y + a.exy * (u.x * v.y + u.y * v.x);
       };
-      const double work = along * strain(s, s) + across * strain(n, n) + 2 * shear * strain(s, n) +
-                          inertia * (slope.x * a.dux_dx + slope.y * a.duy_dx);
+      const Vec2 known_slope{a.dux_dx, a.duy_dx};
+      const double work = stress.along * strain(s, s) + stress.across * strain(n, n) + 2 * stress.shear * strain(s, n) +
+                          inertia * dot(slope, known_slope);
       const Vec2 traction{a.sxx * out.x + a.sxy * out.y, a.sxy * out.x + a.syy * out.y};
-      task_.sums.interaction[mode] += sign * face.q * (work * out.x - dot(traction, slope));
+      task_.sums.interaction[mode] += sign * face.q * (work * out.x - dot(acts, known_slope) - dot(traction, slope));
     }
   }
 

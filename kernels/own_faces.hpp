@@ -58,16 +58,27 @@ class OwnFaces {
     return !cracks_.bearing.empty() && (cracks_.bearing[k].y > 0 || cracks_.bearing[k + 1].x > 0);
   }
 
-  /// Those, of a segment, each half of it as thick as it bears.
-  void add_tractions(int k, double q) {
-    add(k, q, [this, each = 0.5 / task_.thickness](int n) {
-      return (each * cracks_.bearing[n].y) * traction_on(cracks_, n) +
-             (each * cracks_.bearing[n + 1].x) * traction_on(cracks_, n + 1);
-    });
+  /// The mean of them on the upper face of a segment, Pa, each half of it as thick as it bears.
+  Vec2 traction_of_law(int k) const {
+    const double each = 0.5 / task_.thickness;
+    return (each * cracks_.bearing[k].y) * traction_on(cracks_, k) +
+           (each * cracks_.bearing[k + 1].x) * traction_on(cracks_, k + 1);
   }
-  /// And that of contact.
+  /// Adds what they do on a segment in line with the tip.
+  void add_tractions(int k, double q) {
+    add_work(k, q, [this](int n) { return traction_of_law(n); });
+    if (task_.interaction)
+      add_known_opening(k, q, traction_of_law(k));
+  }
+  /// And on one that is not, which leads along `along`: to J alone.
+  void add_tractions_along(int k, double q, Vec2 along) {
+    task_.sums.faces -= (q * work_past_cuts(k, [this](int n) { return traction_of_law(n); }).work) * along;
+  }
+  /// And what contact does.
   void add_contact(int k, double q, Vec2 traction) {
-    add(k, q, [traction](int) { return traction; });
+    const bool cut = add_work(k, q, [traction](int) { return traction; });
+    if (task_.interaction && !cut)
+      add_known_opening(k, q, traction);
   }
 
   /// What a traction on a segment does as its faces go on from where they are at its first point to where they are at
@@ -96,15 +107,26 @@ class OwnFaces {
   }
 
  private:
+  struct Work {
+    double work;  ///< J/m^2 times the length of the segment
+    bool cut;
+  };
   template <class Traction>
-  void add(int k, double q, const Traction& traction) {
-    const double before = task_.other_faces && meets_other(k) ? cut_at(k, segments_.cell_of(k)) : uncut;
+  Work work_past_cuts(int k, const Traction& traction) const {
+    const bool own = view_.crack[k] == task_.crack;
+    const double before = task_.other_faces && (!own || meets_other(k)) ? cut_at(k, segments_.cell_of(k)) : uncut;
     const auto as_on = [&](int n) { return n < 0 ? 0 : work(n, traction(n)) * first_length(k) / first_length(n); };
-    const double all =
-        before == uncut ? as_on(k) : before * as_on(uncut_beside(k, -1)) + (1 - before) * as_on(uncut_beside(k, 1));
-    task_.sums.tractions -= task_.last ? q * all : -q * all;
-    if (task_.interaction && before == uncut)
-      add_known_opening(k, q, traction(k));
+    if (before == uncut)
+      return {as_on(k), false};
+    return {before * as_on(uncut_beside(k, -1)) + (1 - before) * as_on(uncut_beside(k, 1)), true};
+  }
+
+  /// Is the segment cut?
+  template <class Traction>
+  bool add_work(int k, double q, const Traction& traction) {
+    const Work all = work_past_cuts(k, traction);
+    task_.sums.tractions -= task_.last ? q * all.work : -q * all.work;
+    return all.cut;
   }
 
   Vec2 opening_change(int k) const {
@@ -142,7 +164,7 @@ class OwnFaces {
     const Vec2 a = view_.plane[k], along = view_.plane[k + 1] - a;
     for (int at = view_.cell_start[seen]; at < view_.cell_start[seen + 1]; ++at) {
       const int n = view_.cell_segment[at];
-      if (view_.crack[n] == task_.crack)
+      if (view_.crack[n] == view_.crack[k])
         continue;
       const Vec2 r = view_.plane[n] - a, across = view_.plane[n + 1] - view_.plane[n];
       const double det = cross(along, across);
@@ -156,7 +178,7 @@ class OwnFaces {
   /// The nearest segment on one side of a cut one that is not, or -1.
   int uncut_beside(int k, int step) const {
     for (int n = k + step; std::abs(n - k) <= 2; n += step) {
-      if (n < view_.start[task_.crack] || n + 1 >= view_.start[task_.crack + 1])
+      if (n < view_.start[view_.crack[k]] || n + 1 >= view_.start[view_.crack[k] + 1])
         return -1;
       const int cell = segments_.cell_of(n);
       if (view_.cell_index[cell] >= 0 && cut_at(n, cell) == uncut)

@@ -87,6 +87,26 @@ TEST(Tractions, ActOnTheSolidOnly) {
   EXPECT_NEAR(area[1], 0.65 * std::hypot(0.05 / 0.8, 1), 0.002);
 }
 
+/// Nor does one that has drawn away from its part of the solid, as behind a corner that is left, and with it neither
+/// does the other face: the nodes around have next to no mass and would be hurled off.
+TEST(Tractions, ActOnFacesNextToTheirSolid) {
+  Scene s = torn_block();
+  s.bodies[0].velocity = {0, 0};
+  s.bodies[0].spin = 0;
+  s.cracks = {crack("across", {{-0.1, 0.4}, {1.1, 0.4}})};
+  s.cracks[0].traction = pressure(2e3);
+  const ChosenSpace space;
+  for (const auto& [cells, bears] : {std::pair{0., true}, {0.5, true}, {1.15, false}}) {
+    Simulation m(s, space);
+    Cracks& c = m.state.cracks;
+    const int k = c.points() / 2;
+    c.upper[k].y -= cells * s.cell;
+    m.step();
+    EXPECT_EQ(m.point_forces[2 * k].applied, bears) << cells;
+    EXPECT_TRUE(m.point_forces[2 * k + 4].applied);
+  }
+}
+
 /// Half of a square plate of half width w with a crack of half length a in its middle, both in cells of 1 mm.
 Scene plate(double a, double w) {
   constexpr double mm = 1e-3;
@@ -153,6 +173,7 @@ Scene pressed_block() {
   s.fracture.contour = 6;
   s.growth = GrowthRule{};
   s.growth->toughness = 1.4e3;
+  s.growth->speed_limit = 9;  // half the Rayleigh speed: near that a tip may turn back from the edge on so few cells
   return s;
 }
 
@@ -172,9 +193,7 @@ TEST(Pressure, DoesNoWorkOnWhatItHasLeftBehind) {
     for (const CrackEvent& e : m.state.events)
       exits += e.kind == CrackEvent::Kind::exit;
     EXPECT_EQ(exits, 2);
-    // 0.06 to 0.09 % with vectors of 256 bits, 0.04 to 0.28 % with 512, as the crack takes other ways; with forces on
-    // nodes of next to no mass 1 to 1.9 %
-    EXPECT_LT(worst, 0.004) << contour;
+    EXPECT_LT(worst, 5e-4) << contour;  // 1e-4
   }
 }
 
@@ -187,7 +206,7 @@ TEST(Pressure, StaysInItsRegionAsTheCrackGrows) {
     const ChosenSpace space;
     Simulation m(s, space);
     const Cracks& c = m.state.cracks;
-    while (m.state.tips[1].length < 0.2 && m.state.clock.time < 0.16)
+    while (m.state.tips[1].length < 0.2 && m.state.clock.time < 0.4)
       m.step();
     ASSERT_GE(m.state.tips[1].length, 0.2) << right;
     long grown = 0;
