@@ -445,16 +445,21 @@ TEST(GrowCracks, NewPointsKnowWhereTheyWereAtFirst) {
   EXPECT_NEAR(c.plane0[c.points() - 1].x, 10.1 + run.m.state.tips[1].length, 0.15);
 }
 
-/// A tip says when its contour of two cells to a side takes in another material, and is of that one once it lies in it;
-/// the points that it leaves know how dense the bodies beside them are.
-TEST(GrowCracks, SayThatTheyComeToAnotherMaterial) {
-  Scene scene = plate({crack("edge", {{-1, 8.2}, {6, 8.2}})}, 25);
-  scene.materials.push_back({"heavy", LawKind::linear_elastic, 1e6, 0.3, 8000});
+/// Makes the right half of the plate a body of another material.
+void make_right_half(Scene& scene, const Material& material) {
+  scene.materials.push_back(material);
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[0].region = Rectangle{{0, 0}, {12, 16}};
   scene.bodies[1].region = Rectangle{{12, 0}, {24, 16}};
   scene.bodies[1].name = "right";
   scene.bodies[1].material = 1;
+}
+
+/// A tip says when its contour of two cells to a side takes in another material, and is of that one once it lies in it;
+/// the points that it leaves know how dense the bodies beside them are.
+TEST(GrowCracks, SayThatTheyComeToAnotherMaterial) {
+  Scene scene = plate({crack("edge", {{-1, 8.2}, {6, 8.2}})}, 25);
+  make_right_half(scene, {"heavy", LawKind::linear_elastic, 1e6, 0.3, 8000});
   Driven run(scene, open);
   const FractureReport& report = run.m.fracture;
   while (report.mixed == 0 && run.end(0, true).x < 20)
@@ -483,12 +488,7 @@ TEST(GrowCracks, ByTheToughnessOfTheirMaterial) {
     scene.growth->criterion = by_J ? GrowthCriterion::critical_j : GrowthCriterion::k_max;
     scene.materials[0].K_Ic = 1.5;
     scene.materials[0].J_Ic = 2.5;
-    scene.materials.push_back({"tough", LawKind::linear_elastic, 1e6, 0.3, 1000, 2.5, 3.5});
-    scene.bodies.push_back(scene.bodies[0]);
-    scene.bodies[0].region = Rectangle{{0, 0}, {12, 16}};
-    scene.bodies[1].region = Rectangle{{12, 0}, {24, 16}};
-    scene.bodies[1].name = "right";
-    scene.bodies[1].material = 1;
+    make_right_half(scene, {"tough", LawKind::linear_elastic, 1e6, 0.3, 1000, 2.5, 3.5});
     Driven run(scene, open);
     run.steps(200);
     EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest}));
