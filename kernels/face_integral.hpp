@@ -118,8 +118,8 @@ class FaceIntegral {
   /// Where the tip's own crack ends within the domain the known fields are torn in the solid: a mouth is no matter,
   /// another crack is, unless the cut goes on along that.
   void add_other(const Segment& s) {
-    const bool loaded = own_.bears(s.k), host = s.crack == task_.way.host;
-    const Meeting meeting = loaded ? Meeting{} : meet(s, touching);
+    const Meeting meeting = meet(s, touching);  // what a law puts on faces that touch is in the stresses next to them
+    const bool loaded = own_.bears(s.k) && !meeting.holds, host = s.crack == task_.way.host;
     if (loaded)
       own_.add_tractions_along(s.k, s.q, -turned(s.normal));
     loaded_ = loaded_ || loaded;

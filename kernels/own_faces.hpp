@@ -1,11 +1,13 @@
-// What tractions on the faces of a tip's own crack release as the tip moves on, and where other cracks cut these faces.
+// What tractions on the faces of a tip's own crack, and those of laws on other cracks, release as the tip moves on, and
+// where cracks cut these faces.
 //
 // With t on the upper face and delta the opening, upper less lower face, the faces add to J
 //   J_T = -int q t . d(delta)     (Nairn and Aimene, eq. 11)
 // and, with their eq. 12, nothing of the jump that delta makes where another crack cuts them: up to the cut on either
 // side delta goes on as in the segments before and behind. The interaction integrals add the same with the openings
 // that the fields of K_I = 1 and K_II = 1 have there: the traction on faces that are pressed together takes no part in
-// the opening, and yet the fields next to them bear it.
+// the opening, and yet the fields next to them bear it. Faces that are not in line with the tip add to J as a vector
+// along themselves; what goes through them besides, and the interaction integrals, face_integral.hpp adds.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,11 @@
 #include "perf/gate.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -51,7 +53,9 @@ TEST(Gate, RefusesABaselineOfOtherScenes) {
 
 class BaselineFile : public testing::Test {
  protected:
-  std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "riven_baseline.json";
+  // of this process alone, as tests run beside each other
+  std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("riven_baseline_" + std::to_string(::getpid()) + ".json");
   void TearDown() override { std::filesystem::remove(file); }
 };
 
