@@ -8,6 +8,7 @@
 #include "core/exec/parallel.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/fracture/opening.hpp"
+#include "core/laws/contact.hpp"
 #include "core/scene/schedule.hpp"
 #include "kernels/bridge_integral.hpp"
 #include "kernels/bring_near.hpp"
@@ -158,7 +159,7 @@ class JSearch {
     tip.O_I = by_opening.I;
     tip.O_II = by_opening.II;
     if (!by_interaction) {
-      const Vec2 open{task.sums.shut ? 0 : opening.x, opening.y};
+      const Vec2 open{opening_mode(opening.x, task), opening.y};
       set_intensity(tip, solid, share_out(solid, tip.J, speed_of(tip), open), share_out(solid, tip.J, 0, open));
     }
     d.to_near = task.interaction && half_ > 0.5 * near_contour * m_.scene.cell && (!by_interaction || tip.speed > 0);
@@ -191,10 +192,17 @@ class JSearch {
   }
 
   /// Tips that a contour cannot part share the field around them: each has a part of its J, and K of the root of that.
-  static StressIntensity interaction(const DueTip& d, const TipTask& task) {
+  StressIntensity interaction(const DueTip& d, const TipTask& task) const {
     const double of_each = task.solid->mu / std::sqrt(d.acting);
-    return {task.sums.shut ? 0 : of_each * task.sums.interaction[0] / task.running.A_I,
+    return {opening_mode(of_each * task.sums.interaction[0] / task.running.A_I, task),
             of_each * task.sums.interaction[1] / task.running.A_II};
+  }
+
+  /// What opens a tip. Faces that may not overlap press on each other before it is negative; in waves, where they
+  /// bounce and a node or two bears them now and then, nothing but that sign tells.
+  double opening_mode(double value, const TipTask& task) const {
+    const bool overlaps = !keeps_apart(s_.cracks.contact[task.crack].law);
+    return task.sums.shut ? 0 : overlaps ? value : std::max(0.0, value);
   }
 
   /// The intensities of a tip at rest that release as much.

@@ -75,6 +75,11 @@ RIVEN_INLINE int strictness(ContactLaw law) {
   return 0;
 }
 
+/// May faces of this law part, but not overlap?
+inline bool keeps_apart(ContactLaw law) {
+  return law == ContactLaw::frictionless || law == ContactLaw::coulomb || law == ContactLaw::stick;
+}
+
 /// True if `a` is stricter than `b`; among equals the greater friction or stiffness decides.
 RIVEN_INLINE bool stricter(const ContactSettings& a, const ContactSettings& b) {
   const int sa = strictness(a.law), sb = strictness(b.law);

@@ -14,6 +14,10 @@ using namespace gates;
 
 constexpr double mm = 1e-3, p = 1e6, E = 2500e6;
 
+double rise(double time) {
+  return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) : 1;
+}
+
 /// `a`: half the crack's length.
 Scene pressed_plate(double friction, double a) {
   Scene s =
@@ -29,9 +33,6 @@ Scene pressed_plate(double friction, double a) {
     load.name = side > 0 ? "top" : "bottom";
     load.region = side > 0 ? Rectangle{{-30 * mm, 28 * mm}, {30 * mm, 30 * mm}}
                            : Rectangle{{-30 * mm, -30 * mm}, {30 * mm, -28 * mm}};
-    const auto rise = [](double time) {
-      return time < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * time / ramp)) : 1;
-    };
     load.value[1] = TimeFunction{-side * p * 60 * mm * s.thickness, rise, ""};
     s.loads.push_back(load);
   }
@@ -115,6 +116,60 @@ TEST(ShutCrack, HoldsWhatItsFrictionBearsWhereverItsTipLies) {
            K_II[1] / K_II[0], "1 - mu = 0.7 +- 5 %");
     EXPECT_NEAR(K_II[1] / K_II[0], 1 - friction, 0.05 * (1 - friction));
   }
+}
+
+/// Waves open and shut a crack, whose faces bounce and seldom all touch at once. K_I is never less than 0 by that;
+/// where faces may overlap it is.
+TEST(ShutCrack, HasNoNegativeKIInWaves) {
+  constexpr double a = 8 * mm, K = 0.5 * p * 0.158533, period = 0.1e-3;  // sqrt(pi a)
+  for (const ContactLaw law : {ContactLaw::frictionless, ContactLaw::ignored}) {
+    Scene s = pressed_plate(0, a);
+    s.contact.law = law;
+    s.grid_damping = {};
+    for (const size_t end : {0, 1})
+      s.loads[end].value[1].shape = [](double t) { return -std::sin(2 * std::numbers::pi * t / period); };
+    Plate plate(s);
+    double least = 0, most = 0;
+    for (int k = 0; k < 400; ++k) {
+      const double K_I = plate.tip(4).K_I;
+      least = std::min(least, K_I);
+      most = std::max(most, K_I);
+    }
+    const bool apart = law == ContactLaw::frictionless;
+    report(fmt::format("crack in waves, faces {}: least K_I over that of the load", apart ? "kept apart" : "overlap"),
+           least / K, apart ? "0" : "below -0.5");
+    EXPECT_GT(most, 0.5 * K);
+    if (apart)
+      EXPECT_EQ(least, 0);
+    else
+      EXPECT_LT(least, -0.5 * K);
+  }
+}
+
+/// A pressure within that is less than what presses the faces together opens nothing, and the crack slides as without.
+TEST(ShutCrack, StaysShutUnderLittlePressure) {
+  constexpr double a = 8 * mm;
+  double K_II[2] = {};
+  for (const double share : {0., 0.2}) {
+    Scene s = pressed_plate(0, a);
+    if (share > 0) {
+      TractionSettings inside;
+      inside.pressure = {share * p, rise, ""};
+      s.cracks[0].traction = inside;
+    }
+    Plate plate(s);
+    print("crack under pressure that stays shut", plate.hold());
+    const Tip tip = mean_tip(plate, 8);
+    K_II[share > 0] = std::abs(tip.M_II);
+    report(fmt::format("shut crack, {:.0f} % of the load within: K_I over K_II", 100 * share),
+           tip.M_I / std::abs(tip.M_II), "0.05");
+    report(fmt::format("shut crack, {:.0f} % of the load within: sqrt(J E) over K_II", 100 * share),
+           std::sqrt(tip.J * E) / std::abs(tip.M_II), "1 +- 0.04");
+    EXPECT_NEAR(tip.M_I, 0, 0.05 * std::abs(tip.M_II));
+    EXPECT_NEAR(std::sqrt(tip.J * E), std::abs(tip.M_II), 0.04 * std::abs(tip.M_II));
+  }
+  report("shut crack, 20 % of the load within: K_II over that without", K_II[1] / K_II[0], "1 +- 0.04");
+  EXPECT_NEAR(K_II[1] / K_II[0], 1, 0.04);
 }
 
 /// Wings on the ends of a crack, along the pressure, open as it slides. With the pressed faces behind the bend, and the
