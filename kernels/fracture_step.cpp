@@ -10,6 +10,7 @@
 #include "core/fracture/opening.hpp"
 #include "core/laws/contact.hpp"
 #include "core/scene/schedule.hpp"
+#include "kernels/body_forces.hpp"
 #include "kernels/bridge_integral.hpp"
 #include "kernels/bring_near.hpp"
 #include "kernels/simulation.hpp"
@@ -48,7 +49,8 @@ class JSearch {
       return;
     exec::PartsOnHost parts;
     bring_near(m_.space, s_, places_of(due), half_ / m_.scene.cell + around_contour, parts);
-    const TipContours<Real> contours(m_, rules_, tips_);
+    const BodyForces forces = body_forces_near(m_, TipPlaces(places_of(due)), half_ + 2 * m_.scene.cell);
+    const TipContours<Real> contours(m_, rules_, tips_, forces);
     while (!due.empty()) {
       std::vector<TipTask> tasks(due.size());
       each("contours", due.size(), [&](size_t k) { tasks[k] = contours.place(due[k]); });
@@ -128,7 +130,7 @@ class JSearch {
   void settle(DueTip& d, const TipTask& task) const {
     Tip& tip = *d.tip;
     const TipSums& sums = task.sums;
-    const Vec2 J = (1 / d.acting) * (sums.J + sums.inertia + sums.faces);
+    const Vec2 J = (1 / d.acting) * (sums.J + sums.area + sums.faces);
     tip.step = s_.clock.step;
     tip.J1 = J.x;
     tip.J2 = J.y;

@@ -56,7 +56,7 @@ struct Band {
     const Vec2 t = task.heading, n = turned(t);
     const Vec2 t0{task.turn.x * t.x + task.turn.y * t.y, task.turn.x * t.y - task.turn.y * t.x};
     const double speed = task.running.speed;
-    take_signs(task);
+    task.find_signs(lanes, rx, ry, sign);
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const Mat2<double> H = task.gradient(Mat2<double>{Fxx[k], Fxy[k], Fyx[k], Fyy[k]});
       const Vec2 ut{H.xx * t0.x + H.xy * t0.y, H.yx * t0.x + H.yy * t0.y};
@@ -87,14 +87,6 @@ struct Band {
   }
 
  private:
-  void take_signs(const TipTask& task) {
-    const Vec2 t = task.heading;
-    for (int k = 0; k < lanes; ++k) {
-      const Vec2 r{rx[k], ry[k]};
-      sign[k] = task.cut ? task.cut->sign({dot(r, t), cross(t, r)}) : 1;
-    }
-  }
-
   template <class Law>
   struct Solid {
     Law law;

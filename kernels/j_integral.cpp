@@ -12,8 +12,8 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/face_integral.hpp"
 #include "kernels/field_slots.hpp"
+#include "kernels/j_area.hpp"
 #include "kernels/j_band.hpp"
-#include "kernels/j_inertia.hpp"
 
 namespace riven {
 
@@ -35,7 +35,8 @@ class TipSummer {
     int left() const { return static_cast<int>(lines.size() - asked); }
   };
 
-  /// Lists the particles in the cells of the domain. Without inertia those where q is 1 all around are left out.
+  /// Lists the particles in the cells of the domain. Unless the area is summed those where q is 1 all around are left
+  /// out.
   void list(const TipTask& task, Patch& patch) const {
     const Lattice& l = s_.grid.lattice;
     const JDomain& d = task.domain;
@@ -57,7 +58,7 @@ class TipSummer {
     };
     const int* start = s_.particles.tiles.cell_start.data();
     for (int j = j0; j <= j1; ++j) {
-      if (task.inertia || j < m0 || j > m1 || k0 > k1) {
+      if (task.sums_area() || j < m0 || j > m1 || k0 > k1) {
         each_stretch_of_row(l, start, j, i0, i1, take);
       } else {
         each_stretch_of_row(l, start, j, i0, k0 - 1, take);
@@ -69,7 +70,7 @@ class TipSummer {
   /// Meanwhile asks for the data of the next tip.
   void sum(TipTask& task, const Patch& patch, Patch& next) const {
     Sums sums(task, next);
-    with_flag(task.inertia, [&](auto area) {
+    with_flag(task.sums_area(), [&](auto area) {
       for (const auto [first, last] : patch.stretches)
         look<decltype(area)::value>(sums, first, last);
     });
@@ -179,10 +180,10 @@ class TipSummer {
     if (chosen.count == 0)
       return;
     chosen.fill_last_lanes();
-    Inertia<Shape, Real> inertia;
+    AreaSums<Shape, Real> area;
     for (int k = 0; k < chosen.count; k += lanes)
-      inertia.add(s_, slots_, sums.task, chosen.particle + k, std::min(lanes, chosen.count - k));
-    inertia.add_to(sums.task.sums);
+      area.add(s_, slots_, sums.task, chosen.particle + k, std::min(lanes, chosen.count - k));
+    area.add_to(sums.task.sums);
     chosen.count = 0;
   }
 

@@ -1,9 +1,13 @@
 // The sums over particles around a tip that make up the J integral (j_domain.hpp), in the first configuration K:
-//   J_K = - sum a_p E_Kj dq/dx_j + sum a_p q P_K,
+//   J_K = - sum a_p E_Kj dq/dx_j + sum a_p q P_K - sum a_p q B_K,
 //   a E_Kj = (m/t) [ (w + v^2/2) F_jK - tau_ij (F_iK - delta_iK) ],
-//   a P_K  = (m/t) [ a_i (F_iK - delta_iK) - v_i (grad v F)_iK ]           (Nairn and Aimene, eq. 9, times F)
-// with m/t the mass per thickness, w the strain energy and tau the Kirchhoff stress per mass. For small strains this is
-// the integral as printed; at any strain and rotation it is that of the crack's length when it was stress-free.
+//   a P_K  = (m/t) [ a_i (F_iK - delta_iK) - v_i (grad v F)_iK ],          (Nairn and Aimene, eq. 9, times F)
+//   a B_K  = (m/t) b_i (F_iK - delta_iK)
+// with m/t the mass per thickness, w the strain energy and tau the Kirchhoff stress per mass, and b what body forces
+// and loads on particles give to a unit of mass. For small strains this is the integral as printed, but for B_K; at any
+// strain and rotation it is that of the crack's length when it was stress-free. P_K counts where inertia is asked for.
+// B_K counts everywhere: by the weight of a solid the stress along a crack may change as much within the contour as
+// opens the crack.
 //
 // v_i (grad v F)_iK is the gradient of v^2/2. Around a tip at rest, where v is finite, Green's theorem makes what it
 // adds to the area the opposite of what v^2/2 adds to the band and the faces. So there v counts in neither: a body that
@@ -27,9 +31,11 @@
 
 namespace riven {
 
+struct BodyForces;
+
 struct TipSums {
   Vec2 J;                           ///< J/m^2, of the band in which q falls
-  Vec2 inertia;                     ///< J/m^2, of the area
+  Vec2 area;                        ///< J/m^2, of inertia and body forces
   Vec2 faces;                       ///< J/m^2, along the faces of cracks
   double tractions = 0;             ///< J/m^2, of tractions on the crack's own faces, along its heading
   double interaction[2] = {0, 0};   ///< m^0.5, interaction integral over K, with the fields of K_I = 1 and K_II = 1
@@ -61,16 +67,25 @@ struct TipTask {
   double thickness = 1;  ///< m, of the solid
   RunningTip running;
   const std::uint8_t* touched = nullptr;  ///< ContactSums::touched; none: faces that are close may press on each other
-  bool inertia = false;                   ///< asks for TipSums::inertia
+  bool inertia = false;                   ///< asks for what it adds to TipSums::area
+  const BodyForces* forces = nullptr;     ///< none: there are none
   bool interaction = false;               ///< and for TipSums::interaction
   TipSums sums{};
 
+  bool sums_area() const { return inertia || forces != nullptr; }
   /// Share of v^2 / 2 in J.
   double kinetic() const { return running.speed > 0 ? 1 : 0; }
   /// Half the difference of the off-diagonal parts of F R^T: by how much a place has turned more than the tip, by R.
   template <class Real>
   RIVEN_INLINE double rotation(const Mat2<Real>& F) const {
     return 0.5 * ((F.yx - F.xy) * turn.x - (F.xx + F.yy) * turn.y);
+  }
+  /// Signs of the known fields at offsets r from the tip.
+  void find_signs(int count, const double* rx, const double* ry, double* sign) const {
+    for (int k = 0; k < count; ++k) {
+      const Vec2 r{rx[k], ry[k]};
+      sign[k] = cut ? cut->sign({dot(r, heading), cross(heading, r)}) : 1;
+    }
   }
   /// Displacement gradient F - R of what has turned by R with the tip.
   template <class Real>

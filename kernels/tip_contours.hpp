@@ -45,8 +45,9 @@ struct DueTip {
 template <class Real>
 class TipContours {
  public:
-  /// `tips`: State::tips, or a copy of them.
-  TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips);
+  /// `tips`: State::tips, or a copy of them; `forces`: around those that are due, for as long as tasks are summed.
+  TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips,
+              const BodyForces& forces);
 
   /// What to sum for a tip, on the contour that it is at.
   TipTask place(DueTip& d) const;
@@ -68,6 +69,7 @@ class TipContours {
   const State<Real, 2>& s_;
   const FractureRules& rules_;
   const std::vector<Tip>& tips_;
+  const BodyForces* forces_;  ///< null where there are none
   std::vector<PlaneElasticity> solids_;
   TipPlaces places_;
 };

@@ -1,9 +1,9 @@
 // The part of the plane over which the J integral of a tip is taken, and the weight q that makes an area integral of
 // the contour integral.
 //
-// With Eshelby's tensor E_Kj = (W + K) F_jK - sigma_ij (F_iK - delta_iK), whose divergence is the inertia term P_K of
+// With Eshelby's tensor E_Kj = (W + K) F_jK - sigma_ij (F_iK - delta_iK), whose divergence is the term P_K - B_K of
 // j_integral.hpp, Green's theorem turns the contour integral of Nairn and Aimene, eq. 9, into
-//   J_K = - int E_Kj dq/dx_j dA + int q P_K dA + sum over crack faces int q E_Kj n_j ds
+//   J_K = - int E_Kj dq/dx_j dA + int q (P_K - B_K) dA + sum over crack faces int q E_Kj n_j ds
 // for any q that is 1 at the tip and 0 outside (Li, Shih and Needleman, Eng. Fract. Mech. 21 (1985) 405-421; n points
 // out of the solid). Here q falls from 1 to 0 across each edge of a rectangle (+x, +y, -x, -y) about the tip, as the
 // mean over all rectangles within one cell of it, so that J is the mean of the contour integrals over these. Nothing

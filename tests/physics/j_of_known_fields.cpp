@@ -460,9 +460,9 @@ TEST(JOfKnownFields, InertiaIsThatOfEveryParticleInTheContour) {
           const TipSums &without = tasks[0].sums, &with = tasks[1].sums;
           const InertiaByHand by_hand =
               with_shape(shape, [&](auto type) { return inertia_by_hand<typename decltype(type)::type>(m, task); });
-          EXPECT_NEAR(with.inertia.x, by_hand.J.x, 1e-12 * by_hand.size);
-          EXPECT_NEAR(with.inertia.y, by_hand.J.y, 1e-12 * by_hand.size);
-          EXPECT_EQ(without.inertia.x, 0);
+          EXPECT_NEAR(with.area.x, by_hand.J.x, 1e-12 * by_hand.size);
+          EXPECT_NEAR(with.area.y, by_hand.J.y, 1e-12 * by_hand.size);
+          EXPECT_EQ(without.area.x, 0);
           EXPECT_EQ(with.J.x, without.J.x);
           for (int mode = 0; mode < 2; ++mode)
             EXPECT_NEAR(with.interaction[mode] - without.interaction[mode], speed > 0 ? 0 : by_hand.interaction[mode],

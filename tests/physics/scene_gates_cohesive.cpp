@@ -107,7 +107,7 @@ double far_contour(Simulation& m) {
   task.inertia = true;
   std::vector<TipTask> tasks{task};
   sum_around_tips(m.space, m.plan, m.state, tasks);
-  return tasks[0].sums.J.x + tasks[0].sums.inertia.x;
+  return tasks[0].sums.J.x + tasks[0].sums.area.x;
 }
 
 /// The point at 20 mm, the zone's root as it is laid.
