@@ -72,8 +72,15 @@ long fastest_particle(const Particles<Real, 2>& p) {
 }
 
 double work_lag(const Plan& plan, long step) {
-  const bool at_an_end = plan.update == StressUpdate::usl || plan.update == StressUpdate::usf;
-  return plan.worked_on() ? (at_an_end ? 2.2 : 0.5) / static_cast<double>(std::max(1L, step)) : 0;
+  const auto steps_by = [](StressUpdate update) {
+    switch (update) {
+      case StressUpdate::usl:
+      case StressUpdate::usf: return 2.2;
+      case StressUpdate::musl: return 0.8;
+      default: return 0.5;
+    }
+  };
+  return plan.worked_on() ? steps_by(plan.update) / static_cast<double>(std::max(1L, step)) : 0;
 }
 
 template <class Real>

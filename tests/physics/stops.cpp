@@ -170,6 +170,30 @@ TEST(Stops, LetLoadsBeginAtOnce) {
   EXPECT_LT(m.state.ledger.energy.numerical(), m.plan.energy_growth * m.state.ledger.energy.largest);
 }
 
+/// Grips that move off at once strain what they hold before they are booked with work.
+TEST(Stops, LetGripsBeginAtOnce) {
+  for (const StressUpdate update : {StressUpdate::musl, StressUpdate::usavg}) {
+    Scene s = resting_block();
+    s.transfer = Transfer::fmpm;
+    s.order = 2;
+    s.stress_update = update;
+    s.cfl = 0.7;
+    for (const double side : {-1., 1.}) {
+      Grip g;
+      g.name = side > 0 ? "top" : "bottom";
+      g.region = side > 0 ? Rectangle{{0, 0.5}, {1, 0.625}} : Rectangle{{0, -0.125}, {1, 0}};
+      g.velocity[1] = constant(-1e-3 * side);
+      s.grips.push_back(g);
+    }
+    const ChosenSpace space;
+    Simulation m(s, space);
+    for (int step = 0; step < 20; ++step) {
+      m.step();
+      EXPECT_NO_THROW(m.take_stock()) << name_of(update) << ", step " << step;
+    }
+  }
+}
+
 /// What contact is said to take and the transfer to give back is no growth; what contact takes alone is.
 TEST(Stops, LeaveWhatTheTransferGivesBackOutOfGrowth) {
   Scene s = resting_block();
