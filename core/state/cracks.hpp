@@ -94,7 +94,7 @@ struct Cracks {
 };
 
 /// Cuts each line of the scene into equal segments no longer than its resolution (m; where it says none,
-/// `default_resolution`), keeping the given points, and lays the surfaces on it.
+/// `default_resolution`), keeping the given points unless they crowd on it, and lays the surfaces on it.
 /// Throws Error (bad input) for a line without length.
 Cracks make_cracks(const Scene& scene, double default_resolution);
 
