@@ -110,7 +110,7 @@ void check_doubles(const Scene& s) {
         refuse(s, "crack " + c.name, "the crack lies on another one, crack " + other.name, place,
                "cracks that meet or cross, at most", "only one of them");
       refuse(s, "crack " + c.name, "the crack lies all along crack " + other.name + " with no particle between", place,
-             fmt::format("{:.2g} mm or more, half a particle, from cracks beside it", 1e3 * near),
+             fmt::format("{} or more, half a particle, from cracks beside it", format_length(near, 2)),
              "smaller cells, or only one of them");
     }
   for (const CrackLine& c : s.cracks)
@@ -139,8 +139,8 @@ void check_tips(const Scene& s) {
     return;
   const std::vector<Tip> tips = make_tips(s);
   const std::string wanted =
-      fmt::format("an end inside a body, {:.2g} mm or more, half a particle, from its border and from other cracks",
-                  1e3 * half_particle(s));
+      fmt::format("an end inside a body, {} or more, half a particle, from its border and from other cracks",
+                  format_length(half_particle(s), 2));
   const std::string count = fmt::format("{} crack{}", s.cracks.size(), s.cracks.size() == 1 ? "" : "s");
   if (s.fracture.asked && tips.empty())
     refuse(s, "fracture", "J and K are asked for but no crack has a tip in a body", count, wanted, "no [fracture]");
@@ -174,8 +174,7 @@ void check_interface(const Scene& s, const CrackLine& c) {
   for (const Body& b : s.bodies)
     if (b.thickness > 0 && b.thickness != s.thickness)
       refuse(s, "body " + b.name, "an interface takes the thickness of the scene, and a body has another",
-             fmt::format("{:.6g} mm", 1e3 * b.thickness), fmt::format("{:.6g} mm", 1e3 * s.thickness),
-             "solver.thickness, and none of the body's own");
+             format_length(b.thickness), format_length(s.thickness), "solver.thickness, and none of the body's own");
 }
 
 }  // namespace

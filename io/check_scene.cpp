@@ -69,10 +69,10 @@ void check_symmetry(const Scene& s) {
     const double line = (p.position - low) / s.cell;
     if (std::abs(line - std::round(line)) > on_line || p.position < low - on_line * s.cell ||
         p.position > high + on_line * s.cell)
-      refuse(s, fmt::format("symmetry {}", i), "the symmetry plane is not on a grid line",
-             fmt::format("{:.9g} mm", 1e3 * p.position),
-             fmt::format("{:.9g} mm + n * {:.9g} mm, up to {:.9g} mm", 1e3 * low, 1e3 * s.cell, 1e3 * high),
-             fmt::format("position = \"{:.9g} mm\"", 1e3 * (low + s.cell * std::round(line))));
+      refuse(
+          s, fmt::format("symmetry {}", i), "the symmetry plane is not on a grid line", format_length(p.position, 9),
+          fmt::format("{} + n * {}, up to {}", format_length(low, 9), format_length(s.cell, 9), format_length(high, 9)),
+          fmt::format("position = \"{}\"", format_length(low + s.cell * std::round(line), 9)));
   }
 }
 
@@ -86,7 +86,7 @@ void check_conditions(const Scene& s) {
     if (!nodes(f.box.lower.x, f.box.upper.x, o.x, s.grid.upper.x) ||
         !nodes(f.box.lower.y, f.box.upper.y, o.y, s.grid.upper.y))
       refuse(s, "fix " + f.name, "no grid node lies in the box", text(f.box),
-             fmt::format("nodes at {} + n * {:.6g} mm", text(o), 1e3 * s.cell), "a box on a grid line");
+             fmt::format("nodes at {} + n * {}", text(o), format_length(s.cell)), "a box on a grid line");
   }
   const auto near_body = [&](const Rectangle& box) {
     return std::any_of(s.bodies.begin(), s.bodies.end(), [&](const Body& b) { return overlap(bounds(b.region), box); });
@@ -101,6 +101,20 @@ void check_conditions(const Scene& s) {
     const Vec2 reach{s.cell, s.cell};
     if (point && !near_body({p.point - reach, p.point + reach}))
       refuse(s, "probe " + p.name, "the probe lies on no body", text(p.point), "a point in a body");
+  }
+}
+
+/// Contact and the motion of cracks sum up m x^2, down to a millionth of a particle's mass, and single precision ends
+/// at 1e-38.
+void check_precision(const Scene& s) {
+  constexpr double least = 1e-32;  // kg m^2
+  for (const Body& b : s.bodies) {
+    const double spacing = s.cell / b.particles_per_cell, thickness = b.thickness > 0 ? b.thickness : s.thickness;
+    const double mass = s.materials[static_cast<size_t>(b.material)].density * spacing * spacing * thickness;
+    if (s.precision == Precision::as_float && mass * s.cell * s.cell < least)
+      refuse(s, "solver.precision", "particles of body " + b.name + " are too small for single precision",
+             fmt::format("{:.2g} kg in cells of {}", mass, format_length(s.cell)),
+             fmt::format("{:.2g} kg or more", least / (s.cell * s.cell)), "precision = \"double\"");
   }
 }
 
@@ -119,6 +133,7 @@ void check_scene(const Scene& s) {
   check_grid(s);
   check_symmetry(s);
   check_solids(s);
+  check_precision(s);
   check_conditions(s);
   check_cracks(s);
 }

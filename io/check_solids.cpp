@@ -31,15 +31,15 @@ void check_solid(const Scene& s, const std::string& key, const Region& region, i
                  high_side = p.axis == 0 ? box.upper.x : box.upper.y;
     if (p.solid > 0 ? low_side < p.position - slack : high_side > p.position + slack)
       refuse(s, key, "this lies beyond a symmetry plane", text(box),
-             fmt::format("{} {} {:.9g} mm", p.axis == 0 ? "x" : "y", p.solid > 0 ? "at least" : "at most",
-                         1e3 * p.position),
+             fmt::format("{} {} {}", p.axis == 0 ? "x" : "y", p.solid > 0 ? "at least" : "at most",
+                         format_length(p.position, 9)),
              "only the part that is simulated");
   }
   const double spacing = s.cell / per_cell;
   const Vec2 size = box.upper - box.lower;
   if (std::min(size.x, size.y) < spacing * (1 - on_line))
-    refuse(s, key, "too small to hold a particle", fmt::format("{:.6g} x {:.6g} mm", 1e3 * size.x, 1e3 * size.y),
-           fmt::format("at least {:.6g} mm, the distance of particles", 1e3 * spacing), "smaller cells");
+    refuse(s, key, "too small to hold a particle", format_size(size),
+           fmt::format("at least {}, the distance of particles", format_length(spacing)), "smaller cells");
   if (const auto* p = std::get_if<Polygon>(&region)) {
     double area = 0;
     for (size_t i = 0, j = p->points.size() - 1; i < p->points.size(); j = i++)

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/scene/scene.hpp"
 #include "io/check_scene.hpp"
+#include "io/format_length.hpp"
 
 namespace riven::checks {
 
@@ -20,7 +21,7 @@ constexpr double on_line = 1e-6;  ///< of a cell: as near to a grid line as deci
 }
 
 inline std::string text(Vec2 p) {
-  return fmt::format("({:.6g}, {:.6g}) mm", 1e3 * p.x, 1e3 * p.y);
+  return format_place(p);
 }
 inline std::string text(const Rectangle& r) {
   return text(r.lower) + " to " + text(r.upper);

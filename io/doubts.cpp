@@ -89,8 +89,8 @@ void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
       const double spacing = s.cell / b.particles_per_cell;
       if (std::min(size.x, size.y) < spacing)
         list.push_back({place(s, "body " + b.name),
-                        fmt::format("a hole of {:.4g} x {:.4g} mm may lie between particles, {:.4g} mm apart",
-                                    1e3 * size.x, 1e3 * size.y, 1e3 * spacing),
+                        fmt::format("a hole of {} may lie between particles, {} apart", format_size(size, 4),
+                                    format_length(spacing, 4)),
                         "try smaller cells"});
     }
   for (const Grip& g : s.grips) {
@@ -192,8 +192,8 @@ void doubt_zone(const Scene& s, const CrackLine& c, std::vector<Doubt>& list) {
         {place(s, "crack " + c.name),
          fmt::format("its cohesive zone is some {:.2g} cells long, E G / strength^2, and too strong for them",
                      zone / s.cell),
-         fmt::format("try grid.cell = \"{:.3g} mm\", or less strength at the same toughness",
-                     1e3 * zone / shortest_zone)});
+         fmt::format("try grid.cell = \"{}\", or less strength at the same toughness",
+                     format_length(zone / shortest_zone, 3))});
 }
 
 /// A crack that opens (mode I, where it follows the greatest hoop stress) cannot outrun surface waves.
@@ -233,7 +233,7 @@ void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
     if (const double cells = length(c) / s.cell; cells < shortest_crack)
       list.push_back({place(s, "crack " + c.name),
                       fmt::format("a crack of {:.3g} cells may not open, as all of its nodes see its tips", cells),
-                      fmt::format("try grid.cell = \"{:.3g} mm\"", 1e3 * length(c) / (2 * shortest_crack))});
+                      fmt::format("try grid.cell = \"{}\"", format_length(length(c) / (2 * shortest_crack), 3))});
   for (const CrackLine& c : s.cracks)
     doubt_zone(s, c, list);
   if (!s.fracture.asked)

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/math/median.hpp"
+#include "io/format_length.hpp"
 #include "io/study/fits.hpp"
 #include "io/study/numeric_table.hpp"
 
@@ -110,7 +111,7 @@ std::vector<Rung> choose_ladder(const Scene& scene, const std::vector<Rung>& run
     ++first;
   if (first + 3 > rungs.size())
     fail({Exit::bad_input, "the scene has no three cells from which to extrapolate", scene.source_path + ": grid.cell",
-          fmt::format("{:.6g} mm", 1e3 * scene.cell),
+          format_length(scene.cell),
           "edges of rectangular bodies and grips that stay between particles, and cracks of 4 cells or more, with "
           "larger or smaller cells",
           "a cell that divides the edges of the bodies and grips"});

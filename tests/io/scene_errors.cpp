@@ -46,6 +46,8 @@ const Wrong cases[] = {
      "'stress'"},
     {"unknown_precision", "plane =", "precision = \"flaot\"\nplane =", "plate.toml:4: solver.precision",
      "unknown name 'flaot'", "'float'"},
+    {"float_too_small", "plane =", "precision = \"float\"\nthickness = \"1e-25 m\"\nplane =",
+     "plate.toml:4: solver.precision", "body plate are too small for single precision", "\"double\""},
     {"unknown_material", "material = \"pmma\"", "material = \"pma\"", "plate.toml:16: body.0.material",
      "unknown name 'pma'", "'pmma'"},
     {"no_material", "material = \"pmma\"\n", "", "plate.toml:14: body.0.material", "missing key 'material'", "add"},
