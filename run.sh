@@ -4,7 +4,7 @@
 #   options  for example  -o DIR  --set solver.cfl=0.3  --threads 4  --exec stdpar
 # Results go to results/NAME unless -o says otherwise. Installs missing Debian packages first.
 # Pictures are drawn as the scene says in lines such as  `# draw: --field sigma_yy --magnify 20`  (the options of
-# io/python/riven_picture.py), or else of the von Mises stress.
+# `riven picture`), or else of the von Mises stress.
 start=$PWD
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -45,8 +45,8 @@ say "Drawing"
 file=$scene
 [ -f "$file" ] || file=cases/scenes/$scene.toml
 pictures=$(sed -n 's/^# draw: *//p' "$file")
-script=$PWD/io/python/riven_picture.py
+riven=$PWD/$build/riven
 while read -r -a picture; do
-  (cd "$out" && "$python" "$script" . "${picture[@]}")
+  (cd "$out" && "$riven" picture . "${picture[@]}")
 done <<<"$pictures"
 say "Results are in $out"

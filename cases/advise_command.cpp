@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "cases/commands.hpp"
+#include "cases/shipped.hpp"
 #include "cases/study_tables.hpp"
 #include "core/error.hpp"
 #include "io/folder_lock.hpp"
+#include "io/format_length.hpp"
 #include "io/progress.hpp"
 #include "io/read_scene.hpp"
 #include "io/study/advise.hpp"
@@ -34,16 +36,16 @@ study::Study study_of(const AdviseArguments& o, const std::vector<study::Rung>& 
   s.repeat_under = 2;  // the times of longer runs are good enough for a prediction
   study::Axis cells{"cell", {}, true};
   for (const study::Rung& r : ladder)
-    cells.choices.push_back({fmt::format("{:.4g} mm", 1e3 * r.cell), r.set, r.cell});
+    cells.choices.push_back({format_length(r.cell, 4), r.set, r.cell});
   s.axes = {cells};
   return s;
 }
 
 void print_ladder(const std::vector<study::Rung>& ladder, const std::vector<study::Record>& records) {
-  fmt::print("# {:>12} {:>12} {:>10} {:>10}\n", "cell [mm]", "particles", "steps", "time");
+  fmt::print("# {:>12} {:>12} {:>10} {:>10}\n", "cell", "particles", "steps", "time");
   for (size_t k = 0; k < ladder.size(); ++k)
-    fmt::print("# {:>12.4g} {:>12} {:>10} {:>10}\n", 1e3 * ladder[k].cell, records[k].particles, records[k].steps,
-               format_time(records[k].wall.front()));
+    fmt::print("# {:>12} {:>12} {:>10} {:>10}\n", format_length(ladder[k].cell, 4), records[k].particles,
+               records[k].steps, format_time(records[k].wall.front()));
 }
 
 void print_laws(const std::vector<study::ErrorLaw>& laws, double finest, const study::Advice& a) {

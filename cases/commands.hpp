@@ -1,7 +1,5 @@
 // The commands of riven. Each adds itself to the program: its options, its help, and what it does.
 #pragma once
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +18,7 @@ void add_check(CLI::App& app);
 void add_cases(CLI::App& app);
 void add_study(CLI::App& app);
 void add_advise(CLI::App& app);
+void add_picture(CLI::App& app);
 
 /// What every command that reads a scene understands.
 struct SceneOptions {
@@ -41,14 +40,5 @@ double parse_tolerance(const std::string& text);
 
 /// Threads that the scene asks for, or as many as there are cores.
 int threads_of(const Scene& scene);
-
-/// What is shipped: scenes, and studies of them.
-enum class Shipped { scene, study };
-/// The shipped file of that name, if there is one.
-std::optional<std::filesystem::path> shipped_file(Shipped kind, const std::string& name);
-std::vector<std::string> shipped_names(Shipped kind);
-/// The file of that path or, where there is none, the shipped one of that name. Throws Error (bad_input) with the
-/// nearest name.
-std::string find_file(Shipped kind, const std::string& name);
 
 }  // namespace riven

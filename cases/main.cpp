@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   riven::add_cases(app);
   riven::add_study(app);
   riven::add_advise(app);
+  riven::add_picture(app);
   try {
     obey(app, argc, argv);
     finish_printing();

@@ -17,6 +17,7 @@
 #include "io/compare_scenes.hpp"
 #include "io/doubts.hpp"
 #include "io/duration.hpp"
+#include "io/format_length.hpp"
 #include "io/progress.hpp"
 #include "io/require_memory.hpp"
 #include "io/run_scene.hpp"
@@ -69,9 +70,9 @@ constexpr size_t most_lines = 20;  // of cracks, and of tips
 
 void print_cracks(const std::vector<Summary::Crack>& cracks) {
   for (size_t i = 0; i < std::min(most_lines, cracks.size()); ++i)
-    fmt::print("crack {:<18} opening {:.4g} mm, length {:.4g} mm{}\n", cracks[i].name, 1e3 * cracks[i].max_opening,
-               1e3 * cracks[i].length,
-               cracks[i].grown > 0 ? fmt::format(", grown by {:.4g} mm", 1e3 * cracks[i].grown) : "");
+    fmt::print("crack {:<18} opening {}, length {}{}\n", cracks[i].name, format_length(cracks[i].max_opening, 4),
+               format_length(cracks[i].length, 4),
+               cracks[i].grown > 0 ? ", grown by " + format_length(cracks[i].grown, 4) : "");
   if (cracks.size() > most_lines)
     fmt::print("... and {} more cracks in summary.json\n", cracks.size() - most_lines);
 }
@@ -112,7 +113,7 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
                    : fmt::format(", first at ({:.4g}, {:.4g}) m", w.first_place.x, w.first_place.y));
   for (const Retry& r : s.retries)
     fmt::print("went back from step {} to step {}, to go on with a CFL number of {:.4g}\n", r.step, r.back_to, r.cfl);
-  fmt::print("results in {}\n", folder.string());
+  fmt::print("results in {0}; a picture of them: riven picture {0}\n", folder.string());
 }
 
 template <class Real>

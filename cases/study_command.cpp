@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cases/commands.hpp"
+#include "cases/shipped.hpp"
 #include "cases/study_tables.hpp"
 #include "core/error.hpp"
 #include "io/at_place.hpp"
@@ -80,7 +81,9 @@ void print_setting(const study::Study& s, const study::Members& members, const s
 void draw(const fs::path& folder) {
   Children children;
   const fs::path log = folder / "picture.txt";
-  children.start({"/usr/bin/python3", std::string(RIVEN_PYTHON_DIR) + "/riven_study.py", folder.string()}, log);
+  std::vector<std::string> command = shipped_script("riven_study.py");
+  command.push_back(folder.string());
+  children.start(command, log);
   const ChildEnd end = children.wait();
   if (end.code != 0 || end.signal != 0)
     fmt::print(stderr, "riven: the pictures could not be drawn, see {}\n", log.string());

@@ -29,7 +29,7 @@ double seconds(const timeval& t) {
   const int input = open("/dev/null", O_RDONLY);
   if (input < 0 || dup2(input, 0) < 0 || dup2(output, 1) < 0 || dup2(output, 2) < 0)
     _exit(126);
-  execv(arguments[0], arguments);
+  execvp(arguments[0], arguments);
   _exit(127);
 }
 

@@ -1,15 +1,18 @@
 """Draw a frame, or two columns of the history, of a riven run.
 
-    python3 riven_picture.py DIR                                   # von Mises stress, last frame
-    python3 riven_picture.py DIR --field sigma_yy --frame 10 -o p.png --magnify 20
-    python3 riven_picture.py DIR --curve strain stress             # x column, then one or more y columns
-    python3 riven_picture.py DIR --list                            # fields, frames and columns that there are
+    riven picture DIR                                   # von Mises stress, last frame
+    riven picture DIR --field sigma_yy --frame 10 -o p.png --magnify 20
+    riven picture DIR --curve strain stress             # x column, then one or more y columns
+    riven picture DIR --list                            # fields, frames and columns that there are
+
+`riven picture` runs this script, riven_picture.py.
 
 Particles are drawn as the squares they stand for, moved with the body; open cracks as the gap between
 their two surfaces. --magnify scales displacements and openings (needs the displacement in the frames).
 """
 
 import argparse
+import difflib
 import sys
 from pathlib import Path
 
@@ -24,7 +27,12 @@ try:
 
     from riven_results import Results
 except ModuleNotFoundError as missing:
-    sys.exit(f"{missing}: pictures need NumPy, h5py and Matplotlib for this Python; Debian's are with /usr/bin/python3")
+    print(
+        f"riven_picture: {missing}: pictures need NumPy, h5py and Matplotlib for this Python; Debian's are with"
+        " /usr/bin/python3. `riven picture` takes the Python that RIVEN_PYTHON names.",
+        file=sys.stderr,
+    )
+    sys.exit(4)
 
 SYMBOLS = {
     "sigma_xx": r"$\sigma_{xx}$",
@@ -46,6 +54,19 @@ STRESS = {"sigma_xx": 0, "sigma_yy": 1, "sigma_zz": 2, "sigma_xy": 3}
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p")]
 
 
+def refuse(message, code=2):
+    """Ends with a message and an exit code of riven's: 2 for what was asked, 4 for files."""
+    print(f"riven_picture: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+def refuse_name(kind, name, known):
+    """Refuses a name that is none of those known, with the nearest one, or else all."""
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"did you mean '{near[0]}'? --list prints all" if near else f"there are: {', '.join(known)}"
+    refuse(f"no {kind} '{name}'; {hint}")
+
+
 def stress_name(name):
     """stress_yy is sigma_yy."""
     sigma = name.replace("stress_", "sigma_", 1)
@@ -63,12 +84,12 @@ def field(frame, name):
     if axis in ("x", "y") and base in frame:
         return frame[base][:, "xy".index(axis)], frame.units.get(base, "")
     if name not in frame:
-        raise SystemExit(f"no field '{name}' in this frame; there are: {', '.join(fields(frame))}")
+        refuse_name("field", name, fields(frame))
     values = frame[name]
     if values.ndim == 2 and values.shape[1] == 3:
         values = np.linalg.norm(values, axis=1)
     if values.ndim != 1:
-        raise SystemExit(f"'{name}' has {values.shape[1]} components; name one of: {', '.join(fields(frame))}")
+        refuse(f"'{name}' has {values.shape[1]} components; name one of: {', '.join(fields(frame))}")
     return values, frame.units.get(name, "")
 
 
@@ -106,7 +127,7 @@ def squares(frame, magnify):
     center = frame["points"][:, :2].copy()
     if magnify != 1:
         if "displacement" not in frame:
-            raise SystemExit("--magnify needs the displacement, which these frames do not hold")
+            refuse("--magnify needs the displacement, which these frames do not hold")
         center += (magnify - 1) * frame["displacement"][:, :2]
     half = 0.5 * frame["size"] * 1.01  # a little more than the square: no seams
     corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
@@ -136,7 +157,7 @@ def colours(name, values):
     """Colour map and range: about zero for signed fields, without the few largest values at crack tips."""
     finite = values[np.isfinite(values)]
     if finite.size == 0:
-        raise SystemExit(f"'{name}' holds no finite value in this frame")
+        refuse(f"'{name}' holds no finite value in this frame")
     if name == "fringe":
         return "gray", -1, 1, "neither"
     if np.issubdtype(values.dtype, np.integer):
@@ -198,14 +219,14 @@ def draw_frame(run, name, number, magnify, out, dpi=200):
 def draw_curve(run, names, out, dpi=200):
     for name in names:
         if name not in run.history:
-            raise SystemExit(f"no column '{name}' in history.csv; there are: {', '.join(run.history)}")
+            refuse_name("column", name, list(run.history))
     x_name, y_names = names[0], names[1:]
 
     def axis(columns):
         """Columns that share an axis, in one unit."""
         units = {run.units[n] for n in columns}
         if len(units) > 1:
-            raise SystemExit(f"columns of different units on one axis: {', '.join(sorted(units))}")
+            refuse(f"columns of different units on one axis: {', '.join(sorted(units))}")
         table = np.array([run.history[n] for n in columns])
         return scaled(table, units.pop())
 
@@ -233,13 +254,24 @@ def draw_curve(run, names, out, dpi=200):
     plt.close(figure)
 
 
+def frame_number(text):
+    if text == "last":
+        return text
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is neither a number nor 'last'") from None
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder", metavar="DIR", help="the results of a run")
     parser.add_argument("--field", default="von_mises", help="what colours the particles (default: von_mises)")
-    parser.add_argument("--frame", default="last", help="number of the frame, 0 for the first, or 'last'")
+    parser.add_argument(
+        "--frame", type=frame_number, default="last", help="number of the frame, 0 for the first, or 'last'"
+    )
     parser.add_argument("--magnify", type=float, default=1, help="factor on displacements and openings")
     parser.add_argument("--curve", nargs="+", metavar="COLUMN", help="columns of history.csv: x, then y ...")
     parser.add_argument("--list", action="store_true", help="print what there is to draw")
@@ -255,20 +287,22 @@ def main(arguments=None):
             return
         if options.curve:
             if len(options.curve) < 2:
-                raise SystemExit("--curve takes a column for x and at least one for y")
+                refuse("--curve takes a column for x and at least one for y")
             out = options.out or Path(options.folder) / f"{options.curve[1]}_over_{options.curve[0]}.png"
             draw_curve(run, options.curve, out, options.dpi)
         else:
             if len(run) == 0:
-                raise SystemExit(f"{options.folder}: no frames")
-            number = len(run) - 1 if options.frame == "last" else int(options.frame)
+                refuse(f"{options.folder}: no frames")
+            number = len(run) - 1 if options.frame == "last" else options.frame
             if not -len(run) <= number < len(run):
-                raise SystemExit(f"no frame {number}; there are {len(run)}, from 0")
+                refuse(f"no frame {number}; there are {len(run)}, from 0")
             out = options.out or Path(options.folder) / f"{options.field}_{number % len(run):06d}.png"
             draw_frame(run, options.field, number, options.magnify, out, options.dpi)
         print(out)
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"riven_picture: {error}")
+    except OSError as error:
+        refuse(error, 4)
+    except (KeyError, ValueError) as error:
+        refuse(error)
 
 
 if __name__ == "__main__":

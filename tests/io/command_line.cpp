@@ -36,7 +36,7 @@ TEST(CommandLine, AnUnknownCommandIsNamedWithTheNearest) {
   const Outcome strange = said_to("frobnicate");
   EXPECT_EQ(strange.code, 2);
   EXPECT_TRUE(says(strange, "value:   frobnicate")) << strange.errors;
-  EXPECT_TRUE(says(strange, "allowed: run, plan, check, cases, study, advise")) << strange.errors;
+  EXPECT_TRUE(says(strange, "allowed: run, plan, check, cases, study, advise, picture")) << strange.errors;
 }
 
 TEST(CommandLine, ASceneAloneIsToldHowToRun) {
@@ -46,6 +46,23 @@ TEST(CommandLine, ASceneAloneIsToldHowToRun) {
 TEST(CommandLine, AStudyIsNotRunButStudied) {
   expect_advice("run sent_j", "sent_j is a study: riven study sent_j");
   expect_advice("study sent", "sent is a scene: riven run sent");
+}
+
+TEST(CommandLine, AShippedSceneIsShownAndCopiedWithItsFiles) {
+  const sample::Folder folder;
+  const Outcome shown = riven::riven("cases ten_cracks", folder);
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_TRUE(shown.output.starts_with("# Purpose")) << shown.output;
+  const std::string copy = "cases ten_cracks --copy -o " + (folder / "mine").string();
+  EXPECT_EQ(riven::riven(copy, folder).code, 0);
+  EXPECT_EQ(sample::text_of(folder / "mine/ten_cracks.toml"), shown.output);
+  EXPECT_EQ(riven::riven("check " + (folder / "mine/ten_cracks.toml").string(), folder).code, 0);
+  std::filesystem::remove(folder / "mine/ten_cracks.toml");
+  const Outcome again = riven::riven(copy, folder);  // its file of cracks is there still
+  EXPECT_EQ(again.code, 4);
+  EXPECT_TRUE(says(again, "ten_cracks.csv: there is such a file already")) << again.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "mine/ten_cracks.toml"));
+  expect_advice("cases ten_crack --copy", "did you mean 'ten_cracks'?");
 }
 
 TEST(CommandLine, WhatCannotBePrintedIsAFileError) {
