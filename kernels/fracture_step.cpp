@@ -184,11 +184,11 @@ class JSearch {
   static bool usable(const TipTask& task) { return task.interaction && !task.sums.blind; }
 
   /// J to the modes as the interaction integral has them. Along bent and pressed faces, and where faces that cross bear
-  /// tractions, energies are steeper than the grid resolves. J counts their squares, that integral does not: of a tip
-  /// at rest it then tells J better.
+  /// tractions, energies are steeper than the grid resolves; beside shut faces they are large, too, and cancel. J
+  /// counts their squares, that integral does not: of a tip at rest it then tells J better.
   void share_in_proportion_of(StressIntensity M, Tip& tip, const TipTask& task) const {
     const PlaneElasticity& solid = *task.solid;
-    if (rules_.method == JMethod::fijc_adaptive && task.sums.steep && !(tip.speed > 0))
+    if (rules_.method == JMethod::fijc_adaptive && (task.sums.steep || task.sums.shut) && !(tip.speed > 0))
       tip.J = (M.I * M.I + M.II * M.II) / solid.E;
     set_intensity(tip, solid, share_in_proportion(solid, tip.J, speed_of(tip), M), at_rest(task, M));
   }
