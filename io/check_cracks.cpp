@@ -10,6 +10,7 @@ namespace riven::checks {
 namespace {
 
 constexpr double most_segments = 1e7;
+constexpr double most_to_cell = 200;
 constexpr size_t most_compared = 10000;  // cracks, in pairs
 constexpr int pieces = 7;                // of each straight part of a crack, that are compared
 constexpr double most_samples = 1e5;     // of all cracks together, to find one point in a body
@@ -207,6 +208,11 @@ void check_cracks(const Scene& s) {
                fmt::format("point {} at {}", i + 1, text(p)), text(s.grid.lower) + " to " + text(s.grid.upper),
                "a larger grid, or a crack that ends in it");
     }
+    if (c.resolution > 0 && c.resolution < s.cell / most_to_cell)
+      refuse(s, "crack " + c.name, "the resolution is finer than anything that the grid knows",
+             format_length(c.resolution),
+             fmt::format("{} or more, 1/{:.0f} of a cell", format_length(s.cell / most_to_cell, 3), most_to_cell),
+             "leave it out: the distance of particles is enough");
     segments += length(c) / (c.resolution > 0 ? c.resolution : s.cell / 2);
     if (segments > most_segments)
       refuse(s, "crack " + c.name, "the cracks have too many segments", fmt::format("{:.3g} with this crack", segments),

@@ -23,6 +23,7 @@ constexpr double heaviest = 23e3;       // kg/m^3: osmium, and a little
 constexpr double lightest = 1;          // kg/m^3: aerogel
 constexpr double most_area = 0.02;      // of a rectangle, that its particles may have more or less
 constexpr double most_steps = 0.05;     // of other shapes, whose edges have steps
+constexpr double softest = 100;         // Pa: a tenth of the softest gels and tissues
 constexpr double fastest_waves = 20e3;  // m/s: diamond, and a little
 
 void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
@@ -31,6 +32,9 @@ void doubt_materials(const Scene& s, std::vector<Doubt>& list) {
     if (m.density > heaviest || m.density < lightest)
       list.push_back({place(s, "material " + m.name), fmt::format("no solid has a density of {:.6g} kg/m^3", m.density),
                       "steel has 7850 kg/m^3 or 7.85 g/cm^3; leave it where a body is to weigh more than it is large"});
+    else if (m.E < softest)
+      list.push_back({place(s, "material " + m.name), fmt::format("no solid is as soft as {:.6g} Pa", m.E),
+                      "look at the unit of E"});
     else if (waves > fastest_waves)
       list.push_back({place(s, "material " + m.name),
                       fmt::format("waves run at {:.3g} km/s, faster than in diamond", 1e-3 * waves),
@@ -236,9 +240,11 @@ void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
                       fmt::format("try grid.cell = \"{}\"", format_length(length(c) / (2 * shortest_crack), 3))});
   for (const CrackLine& c : s.cracks)
     doubt_zone(s, c, list);
-  if (!s.fracture.asked)
+  const bool grows =
+      s.growth || std::any_of(s.cracks.begin(), s.cracks.end(), [](const CrackLine& c) { return c.growth; });
+  if (!s.fracture.asked && !grows)
     return;
-  if (s.fracture.contour <= 2)
+  if (s.fracture.asked && s.fracture.contour <= 2)
     list.push_back({place(s, "fracture.contour"),
                     "a contour of 2 cells finds J up to 30 % too large where a crack lies between nodes, and more "
                     "beside a bend",

@@ -82,8 +82,14 @@ void read_conditions(const Table& root, Scene& s) {
   s.body_force[0] = gravity.function("x", dimension::acceleration);
   s.body_force[1] = gravity.function("y", dimension::acceleration);
   const Table damping = root.table("damping", {"grid", "particle"});
-  s.grid_damping = damping.function("grid", dimension::rate);
-  s.particle_damping = damping.function("particle", dimension::rate);
+  const auto read_rate = [&](const char* key) {
+    std::optional<TimeFunction> rate = damping.function(key, dimension::rate);
+    if (rate && !rate->shape && rate->value < 0)
+      damping.refuse(key, "damping that is negative drives the bodies on", "0 or more");
+    return rate;
+  };
+  s.grid_damping = read_rate("grid");
+  s.particle_damping = read_rate("particle");
 }
 
 }  // namespace riven

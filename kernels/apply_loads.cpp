@@ -15,13 +15,15 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
-/// Momentum that loads give in a step, and its moment about the origin, over the step.
+/// Momentum that loads give in a step, and its moment about the origin, over the step; and the sum of the moments'
+/// sizes, as those of loads that face each other add up to nothing.
 struct Push {
   Vec2 force;
-  double torque = 0;
+  double torque = 0, size = 0;
   RIVEN_FN Push& operator+=(const Push& o) {
     force += o.force;
     torque += o.torque;
+    size += o.size;
     return *this;
   }
 };
@@ -69,10 +71,12 @@ void apply_loads(const exec::Space& space, const Plan& plan, State<Real, 2>& s) 
   const Push sum = exec::parallel_reduce<Push>(space, "loads", loads.loaded.size(),
                                                [force = exec::data(std::as_const(loads.force)),
                                                 x = exec::data(std::as_const(loads.applied_at))] RIVEN_KERNEL(long n) {
-                                                 return Push{force[n], cross(x[n], force[n])};
+                                                 const double moment = cross(x[n], force[n]);
+                                                 return Push{force[n], moment, moment < 0 ? -moment : moment};
                                                });
   s.ledger.momentum.impulse += s.clock.dt * sum.force;
   s.ledger.momentum.torque_impulse += s.clock.dt * sum.torque;
+  s.ledger.momentum.torque_size += s.clock.dt * sum.size;
 }
 
 template <class Real>

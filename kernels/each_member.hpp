@@ -74,6 +74,7 @@ void each_member(Momentum& p, F&& f) {
   f("first_angular", p.first_angular);
   f("impulse", p.impulse);
   f("torque_impulse", p.torque_impulse);
+  f("torque_size", p.torque_size);
   f("scale", p.scale);
   f("angular_scale", p.angular_scale);
 }

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/exec/parallel.hpp"
+#include "core/scene/names.hpp"
 
 namespace riven {
 
@@ -62,6 +63,21 @@ void load_region(const Particles<Real, 2>& p, const Load& load, LoadGroup& group
       share = 1 / static_cast<double>(group.id.size());
 }
 
+/// Of a load that finds no particle: why.
+template <class Real>
+[[noreturn]] void refuse_load(const Scene& scene, const Particles<Real, 2>& p, const Load& load) {
+  bool holds_some = false;
+  for (long i = 0; i < p.count() && !holds_some; ++i)
+    holds_some = contains(load.region, {p.x[0][i], p.x[1][i]});
+  const std::string edge(name_of(load.edge)), where = place(scene, "load " + load.name);
+  if (holds_some)
+    fail({Exit::bad_input, "the traction finds no particle at an edge: all in its region have neighbours", where,
+          fmt::format("edge = \"{}\"", edge), fmt::format("a region that reaches over the {} edge of a body", edge),
+          "move the region there, or name another edge"});
+  fail({Exit::bad_input, "the load finds no particle in its region", where, "", "a region that holds particle centres",
+        "make the region a cell larger"});
+}
+
 /// Fields must be numbers where they act: at the start, in the middle and at the end of the run.
 void check_values(const Scene& scene, const Load& load, const LoadGroup& g) {
   for (const double t : {0.0, 0.5 * scene.end_time, scene.end_time})
@@ -92,8 +108,7 @@ void make_loads(const Scene& scene, State<Real, 2>& s) {
     else
       load_region(p, load, g);
     if (g.id.empty())
-      fail({Exit::bad_input, "the load finds no particle in its region", place(scene, "load " + load.name), "",
-            "a region that holds particle centres", "make the region a cell larger"});
+      refuse_load(scene, p, load);
     if (load.value[0].places || load.value[1].places) {
       for (const int id : g.id)  // particles are not sorted yet: each is at the place of its id
         g.first.add({p.x[0][id], p.x[1][id]});

@@ -288,7 +288,7 @@ void settle_constraints(const exec::Space& space, const Plan& plan, double early
     o.reaction = (1 / s.clock.dt) * o.impulse;
     o.mean.add(o.impulse, s.clock.dt);
     s.ledger.momentum.impulse += o.impulse;
-    s.ledger.momentum.torque_impulse += o.torque_impulse;
+    s.ledger.momentum.turn(o.torque_impulse);
     s.ledger.energy.external_work += o.work_now;
     o.work += o.work_now;
     o.impulse = {};

@@ -71,16 +71,16 @@ long fastest_particle(const Particles<Real, 2>& p) {
   return fastest;
 }
 
-double work_lag(const Plan& plan, long step) {
-  const auto steps_by = [](StressUpdate update) {
+double work_lag(const Plan& plan, long step, double power) {
+  const auto strain_ahead = [](StressUpdate update) {
     switch (update) {
       case StressUpdate::usl:
-      case StressUpdate::usf: return 2.2;
-      case StressUpdate::musl: return 0.8;
-      default: return 0.5;
+      case StressUpdate::usf: return 1.7;
+      case StressUpdate::musl: return 0.3;
+      default: return 0.;
     }
   };
-  return plan.worked_on() ? steps_by(plan.update) / static_cast<double>(std::max(1L, step)) : 0;
+  return plan.worked_on() ? (0.5 * power + strain_ahead(plan.update)) / static_cast<double>(std::max(1L, step)) : 0;
 }
 
 template <class Real>

@@ -64,7 +64,8 @@ void book_fields(SimulationOf<Real>& m) {
   const Vec2 g = m.gravity();
   l.energy.external_work += dt * dot(sums.momentum, g);
   l.momentum.impulse += dt * sums.mass * g + sums.damping_impulse;
-  l.momentum.torque_impulse += dt * cross(sums.moment, g) + sums.damping_torque;
+  l.momentum.turn(dt * cross(sums.moment, g));
+  l.momentum.turn(sums.damping_torque);
   l.energy.damping += sums.damping_work;
 }
 

@@ -180,7 +180,7 @@ void book_particle_damping(const exec::Space& space, double damping, State<Real,
   const double d = damping * s.clock.dt;
   s.ledger.energy.damping += 2 * d * (1 - 0.5 * d) * t.kinetic;
   s.ledger.momentum.impulse -= d * Vec2{t.px, t.py};
-  s.ledger.momentum.torque_impulse -= d * t.angular;
+  s.ledger.momentum.turn(-d * t.angular);
 }
 
 #define RIVEN_TALLY(Real)                                                           \

@@ -77,13 +77,15 @@ Overlap penetration(const Cracks& cracks, double cell) {
 }
 
 template <class Real>
-[[noreturn]] void stop(const SimulationOf<Real>& m, Watched which, double value, Vec2 place, double limit) {
+[[noreturn]] void stop(const SimulationOf<Real>& m, Watched which, double value, Vec2 place, double allowance) {
   const WatchedText& text = text_of(which);
   const Clock& c = m.state.clock;
   fail({Exit::unstable, text.what,
         fmt::format("step {}, time {:.6g} s at ({:.6g}, {:.6g}) m", c.step, c.time, place.x, place.y),
         fmt::format("{:.4g}{}{}", value, *text.unit ? " " : "", text.unit),
-        fmt::format("{:.4g} (limits.stop.{})", limit, name_of(which)), text.advice, place});
+        fmt::format("{:.4g} (limits.stop.{}){}", m.scene.limits.stop[static_cast<size_t>(which)], name_of(which),
+                    allowance > 0 ? fmt::format(", and {:.2g} so soon after the start", allowance) : ""),
+        text.advice, place});
 }
 
 }  // namespace
@@ -111,12 +113,12 @@ void watch_figures(SimulationOf<Real>& m) {
       now.first_place = place;
     }
     if (!(value <= stop_at))
-      stop(m, which, value, place, stop_at);
+      stop(m, which, value, place, allowance);
   };
   const Energy& e = s.ledger.energy;
   const double given = e.largest > 0 ? e.given_by_contact() / e.largest : 0;
   look(Watched::energy, std::max(std::abs(e.relative_error()), given), no_place,
-       power_of_work * work_lag(m.plan, s.clock.step));
+       work_lag(m.plan, s.clock.step, power_of_work));
   look(Watched::momentum, s.ledger.momentum.error(), no_place);
   look(Watched::angular_momentum, s.ledger.momentum.angular_error(), no_place);
   const Deformation& d = s.watch.deformation;

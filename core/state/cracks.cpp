@@ -17,15 +17,15 @@ double distance(Vec2 x, Vec2 a, Vec2 b) {
   return norm(x - a - along * d);
 }
 
-/// A line of many more points than its resolution asks for, as one that was traced from an image, without those that
+/// A line of many more points than the grid can tell apart, as one that was traced from an image, without those that
 /// lie on it as nearly as an end of another crack must (D.H. Douglas and T.K. Peucker, Cartographica 10 (1973)
 /// 112-122): each costs as much as a point that means something, and more, as each looks at its neighbours.
-std::vector<Vec2> thinned(const std::vector<Vec2>& line, double resolution) {
-  constexpr double crowded = 0.25, near = 1e-3;  // of the resolution
+std::vector<Vec2> thinned(const std::vector<Vec2>& line, double cell) {
+  constexpr double crowded = 0.125, near = 5e-4;  // cells
   double length = 0;
   for (size_t k = 1; k < line.size(); ++k)
     length += norm(line[k] - line[k - 1]);
-  if (line.size() < 3 || length > crowded * resolution * static_cast<double>(line.size()))
+  if (line.size() < 3 || length > crowded * cell * static_cast<double>(line.size()))
     return line;
   std::vector<bool> kept(line.size());
   kept.front() = kept.back() = true;
@@ -34,7 +34,7 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& line, double resolution) {
     const auto [first, last] = open.back();
     open.pop_back();
     size_t farthest = first;
-    double far = near * resolution;
+    double far = near * cell;
     for (size_t k = first + 1; k < last; ++k)
       if (const double off = distance(line[k], line[first], line[last]); off > far) {
         far = off;
@@ -53,9 +53,9 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& line, double resolution) {
 }
 
 /// The points of one line, cut. Points that repeat the one before are dropped.
-std::vector<Vec2> cut(const CrackLine& line, double resolution) {
+std::vector<Vec2> cut(const CrackLine& line, double resolution, double cell) {
   std::vector<Vec2> points;
-  for (Vec2 to : thinned(line.points, resolution)) {
+  for (Vec2 to : thinned(line.points, cell)) {
     if (points.empty()) {
       points.push_back(to);
       continue;
@@ -80,7 +80,7 @@ Cracks make_cracks(const Scene& scene, double default_resolution) {
   std::vector<Vec2> all;
   std::vector<int> owner;
   for (const CrackLine& line : scene.cracks) {
-    const std::vector<Vec2> points = cut(line, line.resolution > 0 ? line.resolution : default_resolution);
+    const std::vector<Vec2> points = cut(line, line.resolution > 0 ? line.resolution : default_resolution, scene.cell);
     if (points.size() < 2)
       fail({.code = Exit::bad_input,
             .what = "a crack has no length",

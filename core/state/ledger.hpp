@@ -45,12 +45,21 @@ struct Momentum {
   double first_angular = 0;
   Vec2 impulse;  ///< of loads, body forces, damping and reactions so far
   double torque_impulse = 0;
+  double torque_size = 0;    ///< the same, of each source and step without its sign
   double scale = 0;          ///< largest sum of m |v| so far
   double angular_scale = 0;  ///< largest sum of m |x| |v| so far
 
   double error() const { return scale > 0 ? norm(linear - first - impulse) / scale : 0; }
+  /// Moments that keep each other in balance are a measure, too: by the motion alone, of a body that they hold nearly
+  /// at rest, a rounding of them is large.
   double angular_error() const {
-    return angular_scale > 0 ? std::abs(angular - first_angular - torque_impulse) / angular_scale : 0;
+    const double size = std::max(angular_scale, torque_size);
+    return size > 0 ? std::abs(angular - first_angular - torque_impulse) / size : 0;
+  }
+  /// Books a moment of impulse.
+  void turn(double moment) {
+    torque_impulse += moment;
+    torque_size += std::abs(moment);
   }
 };
 

@@ -65,6 +65,19 @@ TEST(CommandLine, AShippedSceneIsShownAndCopiedWithItsFiles) {
   expect_advice("cases ten_crack --copy", "did you mean 'ten_cracks'?");
 }
 
+/// What shows only when particles are laid out.
+TEST(CommandLine, CheckRefusesWhatRunWould) {
+  const sample::Folder folder;
+  const std::string inside = R"( sent --set 'load=[{ kind="traction", edge="top", traction_y="1 MPa", )"
+                             R"(rectangle={ lower=["10 mm", "10 mm"], upper=["20 mm", "20 mm"] } }]')";
+  for (const char* command : {"check", "run"}) {
+    const Outcome refused = riven::riven(command + inside, folder);
+    EXPECT_EQ(refused.code, 2) << command;
+    EXPECT_TRUE(says(refused, "finds no particle at an edge")) << refused.errors;
+    EXPECT_TRUE(says(refused, "edge = \"top\"")) << refused.errors;
+  }
+}
+
 TEST(CommandLine, WhatCannotBePrintedIsAFileError) {
   const sample::Folder folder;
   const Outcome full = riven::riven("cases >/dev/full 2>" + (folder / "said").string() + "; echo $?", folder);
