@@ -1,18 +1,21 @@
 #include "kernels/body_forces.hpp"
 
+#include "core/fracture/tip_places.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
 
 template <class Real>
-BodyForces body_forces_near(const SimulationOf<Real>& m, const TipPlaces& tips, double reach) {
-  BodyForces forces{m.gravity(), {}};
+BodyForces body_forces_near(const SimulationOf<Real>& m, const std::vector<Vec2>& tips, double reach) {
+  BodyForces forces{m.gravity(), {}, {}};
   const Loads& loads = m.state.loads;
   const Particles<Real, 2>& p = m.state.particles;
   const long count = loads.loaded.size();
   if (count == 0)
     return forces;
+  const TipPlaces places(tips);
+  forces.loaded.resize(tips.size());
   const int *loaded = loads.loaded.data(), *position = loads.position.data();
   const Vec2* force = loads.force.data();
   const double *x = p.x[0].data(), *y = p.x[1].data();
@@ -20,7 +23,7 @@ BodyForces body_forces_near(const SimulationOf<Real>& m, const TipPlaces& tips, 
   for (long n = 0; n < count; ++n) {
     const int i = position[loaded[n]];
     bool near = false;
-    tips.each_near({x[i], y[i]}, reach, [&](size_t) { near = true; });
+    places.each_near({x[i], y[i]}, reach, [&](size_t tip) { near = forces.loaded[tip] = true; });
     if (near)
       forces.some.emplace_back(i, force[n] * (1 / double(mass[i])));
   }
@@ -30,7 +33,7 @@ BodyForces body_forces_near(const SimulationOf<Real>& m, const TipPlaces& tips, 
 }
 
 #define RIVEN_BODY_FORCES(Real) \
-  template BodyForces body_forces_near(const SimulationOf<Real>&, const TipPlaces&, double);
+  template BodyForces body_forces_near(const SimulationOf<Real>&, const std::vector<Vec2>&, double);
 RIVEN_EACH_REAL(RIVEN_BODY_FORCES)
 #undef RIVEN_BODY_FORCES
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/fracture/tip_places.hpp"
 #include "core/math/vec.hpp"
 
 namespace riven {
@@ -16,8 +15,9 @@ class SimulationOf;
 struct BodyForces {
   Vec2 everywhere;                         ///< m/s^2
   std::vector<std::pair<int, Vec2>> some;  ///< particles that bear loads, ascending, and these, m/s^2
+  std::vector<bool> loaded;                ///< [tips] some are near; empty where none bear loads
 
-  bool none() const { return everywhere.x == 0 && everywhere.y == 0 && some.empty(); }
+  bool act_at(size_t tip) const { return everywhere.x != 0 || everywhere.y != 0 || (!loaded.empty() && loaded[tip]); }
   Vec2 on(int particle) const {
     Vec2 sum = everywhere;
     const auto before = [](const std::pair<int, Vec2>& a, int b) { return a.first < b; };
@@ -30,6 +30,6 @@ struct BodyForces {
 
 /// Those of particles that are less than `reach` (m) from one of the tips along either axis.
 template <class Real>
-BodyForces body_forces_near(const SimulationOf<Real>& m, const TipPlaces& tips, double reach);
+BodyForces body_forces_near(const SimulationOf<Real>& m, const std::vector<Vec2>& tips, double reach);
 
 }  // namespace riven

@@ -49,8 +49,10 @@ class JSearch {
       return;
     exec::PartsOnHost parts;
     bring_near(m_.space, s_, places_of(due), half_ / m_.scene.cell + around_contour, parts);
-    const BodyForces forces = body_forces_near(m_, TipPlaces(places_of(due)), half_ + 2 * m_.scene.cell);
-    const TipContours<Real> contours(m_, rules_, tips_, forces);
+    const BodyForces forces = body_forces_near(m_, places_of(due), half_ + 2 * m_.scene.cell);
+    for (size_t k = 0; k < due.size(); ++k)
+      due[k].forces = forces.act_at(k) ? &forces : nullptr;
+    const TipContours<Real> contours(m_, rules_, tips_);
     while (!due.empty()) {
       std::vector<TipTask> tasks(due.size());
       each("contours", due.size(), [&](size_t k) { tasks[k] = contours.place(due[k]); });

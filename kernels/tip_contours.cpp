@@ -5,7 +5,6 @@
 
 #include "core/fracture/opening.hpp"
 #include "core/fracture/place_domain.hpp"
-#include "kernels/body_forces.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
@@ -40,14 +39,8 @@ std::vector<Vec2> positions_of(const Cracks& cracks, const std::vector<Tip>& tip
 }  // namespace
 
 template <class Real>
-TipContours<Real>::TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips,
-                               const BodyForces& forces)
-    : m_(m),
-      s_(m.state),
-      rules_(rules),
-      tips_(tips),
-      forces_(forces.none() ? nullptr : &forces),
-      places_(positions_of(m.state.cracks, tips)) {
+TipContours<Real>::TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips)
+    : m_(m), s_(m.state), rules_(rules), tips_(tips), places_(positions_of(m.state.cracks, tips)) {
   solids_.reserve(m.scene.materials.size());
   for (const Material& material : m.scene.materials)
     solids_.emplace_back(material, m.scene.plane);
@@ -77,7 +70,7 @@ TipTask TipContours<Real>::place(DueTip& d) const {
   if (!m_.contact_sums.touched.empty())
     task.touched = m_.contact_sums.touched.data();
   task.other_faces = rules_.method != JMethod::pijc;
-  task.forces = forces_;
+  task.forces = d.forces;
   task.inertia = counts_inertia(d, task.running.speed > 0);
   if (task.running.speed > 0)
     task.core = core_of(task.domain, core_of_running_tip * m_.scene.cell, m_.scene.cell);
@@ -99,7 +92,7 @@ bool TipContours<Real>::counts_inertia(const DueTip& d, bool runs) const {
     return false;
   if (runs)
     return !d.near && rules_.contour > 2 * core_of_running_tip;
-  return rules_.area == AreaTerm::always || rules_.contour > 10 || forces_ != nullptr;
+  return rules_.area == AreaTerm::always || rules_.contour > 10 || d.forces != nullptr;
 }
 
 /// The other tips, where the contour is to leave them out.

@@ -28,26 +28,26 @@ inline Vec2 position_of(const Cracks& cracks, const Tip& tip) {
 /// One tip on its way to J.
 struct DueTip {
   Tip* tip;
-  double most[4];               ///< m, the contour as asked for, or as drawn in
-  std::vector<Vec2> bends{};    ///< that the contour is to leave out
-  bool adapted = false;         ///< it leaves out another tip, or a bend
-  bool in_cell = false;         ///< a tip is too near for that
-  bool bend_in_cell = false;    ///< or a bend
-  bool pressed_bend = false;    ///< or one with pressed faces, for J and K to be resolved
-  double acting = 1;            ///< tips that it takes for this one: itself, and those too near that run its way
-  bool settled = false;         ///< all of its edges lie in the solid
-  bool to_draw_in = false;      ///< some do not, and have room to be drawn in
-  bool to_leave_bends = false;  ///< bends have become known
-  bool near = false;            ///< J is known, and this contour is to say what drives the tip
-  bool to_near = false;         ///< the next one is to
+  double most[4];                      ///< m, the contour as asked for, or as drawn in
+  const BodyForces* forces = nullptr;  ///< none: none act around it
+  std::vector<Vec2> bends{};           ///< that the contour is to leave out
+  bool adapted = false;                ///< it leaves out another tip, or a bend
+  bool in_cell = false;                ///< a tip is too near for that
+  bool bend_in_cell = false;           ///< or a bend
+  bool pressed_bend = false;           ///< or one with pressed faces, for J and K to be resolved
+  double acting = 1;                   ///< tips that it takes for this one: itself, and those too near that run its way
+  bool settled = false;                ///< all of its edges lie in the solid
+  bool to_draw_in = false;             ///< some do not, and have room to be drawn in
+  bool to_leave_bends = false;         ///< bends have become known
+  bool near = false;                   ///< J is known, and this contour is to say what drives the tip
+  bool to_near = false;                ///< the next one is to
 };
 
 template <class Real>
 class TipContours {
  public:
-  /// `tips`: State::tips, or a copy of them; `forces`: around those that are due, for as long as tasks are summed.
-  TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips,
-              const BodyForces& forces);
+  /// `tips`: State::tips, or a copy of them.
+  TipContours(const SimulationOf<Real>& m, const FractureRules& rules, const std::vector<Tip>& tips);
 
   /// What to sum for a tip, on the contour that it is at.
   TipTask place(DueTip& d) const;
@@ -69,7 +69,6 @@ class TipContours {
   const State<Real, 2>& s_;
   const FractureRules& rules_;
   const std::vector<Tip>& tips_;
-  const BodyForces* forces_;  ///< null where there are none
   std::vector<PlaneElasticity> solids_;
   TipPlaces places_;
 };

@@ -3,6 +3,8 @@
 // A plate hangs by its upper edge, and a crack in it lies along the weight: sigma_yy = rho g (y - y_lower) is all that
 // the weight makes, and leaves the crack as it is. So K by a tension across it is the same with the weight as without,
 // at both tips, in contours of any size, and as little may depend on whether the weight is a body force or a load.
+#include "kernels/body_forces.hpp"
+
 #include "tests/physics/plates.hpp"
 
 namespace riven {
@@ -98,6 +100,30 @@ TEST(BodyForces, AreNothingToACrackThatFallsWithThem) {
     EXPECT_NEAR(J[1][end], J[0][end], 0.01 * J[0][end]);
     EXPECT_NEAR(M_I[1][end], M_I[0][end], 0.01 * M_I[0][end]);
   }
+}
+
+/// What acts on the solid around one tip is no matter at another.
+TEST(BodyForces, ActAtTheTipsThatTheyAreNear) {
+  Scene s = hanging_plate(0, false);
+  Plate far(s);
+  const std::vector<Vec2> tips{{0, -a}, {0, a}};
+  far.tip(4);
+  const BodyForces none = body_forces_near(far.simulation(), tips, 4 * mm);
+  EXPECT_FALSE(none.act_at(0) || none.act_at(1));
+  Load load;
+  load.name = "upper";
+  load.kind = Load::Kind::acceleration;
+  load.region = Rectangle{{-2 * mm, a - 2 * mm}, {2 * mm, a + 2 * mm}};
+  load.value[0] = TimeFunction{7, {}, ""};
+  s.loads.push_back(load);
+  Plate near(s);
+  near.tip(4);
+  const BodyForces some = body_forces_near(near.simulation(), tips, 4 * mm);
+  EXPECT_FALSE(some.act_at(0));
+  EXPECT_TRUE(some.act_at(1));
+  ASSERT_EQ(some.some.size(), 64U);
+  EXPECT_NEAR(some.on(some.some[0].first).x, 7, 1e-12);
+  EXPECT_EQ(some.on(some.some[0].first - 1).x, 0);
 }
 
 }  // namespace
