@@ -9,6 +9,7 @@
 #include "core/laws/elastic.hpp"
 #include "core/plan/predict_memory.hpp"
 #include "io/check_scene.hpp"
+#include "io/format_length.hpp"
 
 namespace riven::study {
 
@@ -77,7 +78,7 @@ std::vector<Rung> rungs(const Scene& scene) {
     s.grid = grid_of(scene, s.cell);
     if (!can_be_run(s))
       continue;
-    Rung r{s.cell, {fmt::format("grid.cell={:.12g} m", s.cell)}, work_of(s)};
+    Rung r{s.cell, {"grid.cell=" + format_length(s.cell, 12)}, work_of(s)};
     r.set.push_back(fmt::format("grid.lower=[\"{:.12g} m\", \"{:.12g} m\"]", s.grid.lower.x, s.grid.lower.y));
     r.set.push_back(fmt::format("grid.upper=[\"{:.12g} m\", \"{:.12g} m\"]", s.grid.upper.x, s.grid.upper.y));
     list.push_back(std::move(r));
