@@ -25,12 +25,12 @@ namespace {
 
 /// What a block gathers: updated velocity, acceleration, and the velocity that the transfer rule hands over.
 template <class Real>
-struct MotionLanes {
+struct GatheredMotion {
   alignas(64) Real vx[exec::lanes], vy[exec::lanes], ax[exec::lanes], ay[exec::lanes], hx[exec::lanes], hy[exec::lanes];
 };
 
 template <class Real, class From, class Handed>
-RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const From& updated, const Handed& handed) {
+RIVEN_INLINE void set_motion(GatheredMotion<Real>& m, int k, const From& updated, const Handed& handed) {
   put<Real>(m.vx + k, updated.value[0]);
   put<Real>(m.vy + k, updated.value[1]);
   put<Real>(m.ax + k, updated.value[2]);
@@ -41,14 +41,14 @@ RIVEN_INLINE void set_motion(MotionLanes<Real>& m, int k, const From& updated, c
 
 /// All that FLIP asks for.
 template <class Real>
-RIVEN_INLINE void set_acceleration(MotionLanes<Real>& m, int k, const GatheredFour<Real>& a) {
+RIVEN_INLINE void set_acceleration(GatheredMotion<Real>& m, int k, const GatheredFour<Real>& a) {
   put<Real>(m.ax + k, a.value[0]);
   put<Real>(m.ay + k, a.value[1]);
 }
 
 template <bool Gradient, bool High, class Real, class Shape, class Slots>
 RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
-                                Slots slots, bool high_gradient, MotionLanes<Real>& m, GradientLanes<Real>& g) {
+                                Slots slots, bool high_gradient, GatheredMotion<Real>& m, GradientLanes<Real>& g) {
   if constexpr (High) {
     if (Gradient && high_gradient) {
       const auto handed = gather_from<true, 2>(w, k, high, nx, slots);
@@ -75,7 +75,7 @@ struct StepNumbers {
 
 /// Kinetic energy that particles lose by what the transfer changes of v + a dt, m (v + v')/2 . (v + a dt - v'), J.
 template <class Real>
-RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, const GatheredMotion<Real>& m,
                            const StepNumbers<Real>& n, double* worn) {
   const double dt = n.dt, give = 1 - n.keep, high_dt = n.high_dt - n.dt, undamped = 1 - 0.5 * n.damping * dt;
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
@@ -88,7 +88,7 @@ RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, c
 
 /// Move of each lane, by its velocity of before.
 template <class Real>
-RIVEN_INLINE void find_move(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+RIVEN_INLINE void find_move(const ParticleView<Real>& p, long first, int count, const GatheredMotion<Real>& m,
                             const StepNumbers<Real>& n, Real* dx, Real* dy, TileWatch<Real>& seen) {
   exec::for_lanes(count, [&](int k) RIVEN_LANE {
     // the grid's velocity is that after its acceleration, before the particle's damping
@@ -100,7 +100,7 @@ RIVEN_INLINE void find_move(const ParticleView<Real>& p, long first, int count, 
 
 /// New velocity of each lane.
 template <class Real>
-RIVEN_INLINE void update_velocity(const ParticleView<Real>& p, long first, int count, const MotionLanes<Real>& m,
+RIVEN_INLINE void update_velocity(const ParticleView<Real>& p, long first, int count, const GatheredMotion<Real>& m,
                                   const StepNumbers<Real>& n, TileWatch<Real>& seen) {
   if (n.keep != Real(1))
     wear_off(p, first, count, m, n, seen.worn);
@@ -146,7 +146,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
             [p, at, q, high, nx, law, n, high_gradient, together] RIVEN_KERNEL(auto stretch, long begin, long end,
                                                                                TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
-              MotionLanes<Real> motion;
+              GatheredMotion<Real> motion;
               GradientLanes<Real> gradient;
               alignas(64) Real dx[L], dy[L];
               for (long first = begin; first < end; first += L) {
@@ -191,7 +191,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
       [p, at, extra, q, high, again, nx, n, together, by_acceleration] RIVEN_KERNEL(
           auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
-        MotionLanes<Real> motion{};
+        GatheredMotion<Real> motion{};
         GradientLanes<Real> none;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));

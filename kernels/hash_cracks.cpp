@@ -22,7 +22,7 @@ namespace {
 constexpr const char* label = "hash cracks: clear";
 
 /// Cells, and tiles, of one task.
-constexpr long some = 512, tiles_of_task = 16;
+constexpr long cells_of_task = 512, tiles_of_task = 16;
 
 /// The cracks that particles of a tile may see: those of the cells that they may be in.
 struct CracksOfTile {
@@ -69,7 +69,7 @@ void mark_tiles(const exec::Space& space, const Lattice& lattice, const Cracks& 
   fields.tile_marked.renew(tiles);
   exec::parallel_zero(space, label, fields.tile_marked);
   int* const marked = exec::data(fields.tile_marked);
-  exec::launch_some(space, fields.cells.size(), some,
+  exec::launch_some(space, fields.cells.size(), cells_of_task,
                     [=, cell = exec::data(std::as_const(fields.cells))] RIVEN_KERNEL(long c) {
                       each_tile_around(lattice, cell[c], 0, [&](int tile) { exec::atomic_set(marked[tile], 1); });
                     });

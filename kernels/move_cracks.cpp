@@ -13,8 +13,8 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
-/// Points whose surfaces are fitted together, and those that one task looks up.
-constexpr long points_of_fit = MotionLanes::lanes / 2, points_of_task = exec::lanes > 1 ? 32 : 1;
+/// Points whose surfaces are fitted together, and those that one task moves.
+constexpr long points_of_fit = MotionLanes::lanes / 2, points_of_move = exec::lanes > 1 ? 32 : 1;
 
 /// Looks up the surfaces of points [first, end), as many as are fitted together. In stages, so that what one point
 /// waits for is not what the next one does.
@@ -60,12 +60,12 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   const bool of_all = rules.motion == CrackMotion::center_of_mass;
   found.all.resize(of_all ? points : 0);
   exec::parallel_tasks(
-      space, "move cracks", (points + points_of_task - 1) / points_of_task,
+      space, "move cracks", (points + points_of_move - 1) / points_of_move,
       [=, surfaces = exec::data_to_fill(found.surfaces), all = exec::data_to_fill(found.all)] RIVEN_KERNEL(long task) {
-        const long end = std::min(points, (task + 1) * points_of_task);
-        for (long first = task * points_of_task; first < end; first += points_of_fit)
+        const long end = std::min(points, (task + 1) * points_of_move);
+        for (long first = task * points_of_move; first < end; first += points_of_fit)
           find_surfaces(from, at, first, std::min(end, first + points_of_fit), surfaces);
-        for (long k = task * points_of_task; of_all && k < end; ++k)
+        for (long k = task * points_of_move; of_all && k < end; ++k)
           all[k] = from.of_all_fields(at.plane[k]);
       });
   move_points(space, found, rules, dt, cracks);
