@@ -84,9 +84,22 @@ void doubt_edges(const Scene& s, const Body& b, std::vector<Doubt>& list) {
                     "try cells that divide its sides, or smaller ones"});
 }
 
+/// What flies faster than its own waves is meant to hit something at hundreds of metres a second, at least.
+void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  const Material& m = s.materials[static_cast<size_t>(b.material)];
+  const double waves = std::sqrt(m.E / m.density), speed = norm(b.velocity);
+  if (speed > waves)
+    list.push_back(
+        {place(s, "body " + b.name),
+         fmt::format("it begins at {:.4g} m/s, faster than its waves, which run at {:.4g}", speed, waves),
+         "look at the unit of velocity"});
+}
+
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
-  for (const Body& b : s.bodies)
+  for (const Body& b : s.bodies) {
     doubt_edges(s, b, list);
+    doubt_velocity(s, b, list);
+  }
   for (const Body& b : s.bodies)
     for (const Region& hole : b.holes) {
       const Vec2 size = bounds(hole).upper - bounds(hole).lower;

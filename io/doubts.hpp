@@ -14,9 +14,9 @@ struct Doubt {
 };
 
 /// Cracks too short to open, tips beside another material or the end of the solid, contours too small for J, cohesive
-/// zones too short for the cells, bodies and holes that particles do not make up, grips away from all bodies, tractions
-/// on oblique edges and in holes, and materials whose density or wave speed no solid has. `s`: a scene that passes
-/// check_scene.
+/// zones too short for the cells, bodies and holes that particles do not make up, bodies faster than their waves, grips
+/// away from all bodies, tractions on oblique edges and in holes, and materials whose density or wave speed no solid
+/// has. `s`: a scene that passes check_scene.
 std::vector<Doubt> doubts(const Scene& s);
 /// Of these, those of tractions.
 void doubt_loads(const Scene& s, std::vector<Doubt>& list);

@@ -188,17 +188,29 @@ class FaceIntegral {
     return at;
   }
 
+  /// The segment of the tip's crack that ends in it.
+  Segment next_to_tip() const {
+    Segment at{};
+    at.crack = task_.crack;
+    move_to(at, cracks_.end_point(task_.crack, task_.last) - int{task_.last});
+    return at;
+  }
+
   /// Takes the next segment behind one of the tip's crack; false if there is none.
   bool behind(Segment& at) const {
     if (at.k == cracks_.end_point(task_.crack, !task_.last) - (task_.last ? 0 : 1))
       return false;
-    at.k += task_.last ? -1 : 1;
-    at.middle = middle_of(at.k);
-    const Vec2 along = view_.plane[at.k + 1] - view_.plane[at.k];
+    move_to(at, at.k + (task_.last ? -1 : 1));
+    return true;
+  }
+
+  void move_to(Segment& at, int k) const {
+    at.k = k;
+    at.middle = middle_of(k);
+    const Vec2 along = view_.plane[k + 1] - view_.plane[k];
     at.length = norm(along);
     if (at.length > 0)
       at.normal = turned(along * (1 / at.length));
-    return true;
   }
 
   /// Both faces where they touch each other.
@@ -208,13 +220,16 @@ class FaceIntegral {
     Vec2 traction;  ///< on the upper one
   };
 
-  /// Meets where faces are closer than some cells, have acted on each other, and their law bears what the stresses next
-  /// to them ask for.
+  /// Are faces closer than some cells, may they press on each other, and have they acted on each other?
+  bool touch(const Segment& s, double cells) const {
+    const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
+    return cracks_.contact[s.crack].law != ContactLaw::ignored && dot(gap, s.normal) < cells * h_ && acted(s.middle);
+  }
+
+  /// Meets where faces touch and their law bears what the stresses next to them ask for.
   Meeting meet(const Segment& s, double cells) {
     Meeting m;
-    const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
-    const ContactSettings& contact = cracks_.contact[s.crack];
-    if (contact.law == ContactLaw::ignored || !(dot(gap, s.normal) < cells * h_) || !acted(s.middle))
+    if (!touch(s, cells))
       return m;
     Vec2 traction;
     for (const Side side : {Side::above, Side::below}) {
@@ -224,33 +239,41 @@ class FaceIntegral {
       const double *stress = face.data() + face_stress, x = s.normal.x, y = s.normal.y;
       traction -= 0.5 * Vec2{stress[0] * x + stress[2] * y, stress[2] * x + stress[1] * y};
     }
-    m.traction = contact_traction(contact, traction, s.normal);
+    m.traction = contact_traction(cracks_.contact[s.crack], traction, s.normal);
     m.holds = dot(m.traction, m.traction) > 0;
     return m;
   }
 
   /// Faces in line with their tip. Next to it stresses fall so steeply that what they are on a face is known no better
-  /// than to a tenth of what the tip makes of them, which is as much as friction. There friction is that of the first
-  /// place behind, and the pressure the mean of some, a cell apart, as nodes take turns in bearing it.
+  /// than to a tenth of what the tip makes of them, which is as much as friction. What faces bear there, if they touch,
+  /// is what they bear behind; within a cell of the tip, where all faces are near each other, they touch if the next
+  /// do.
   Meeting meet_shut(const Segment& s) {
     const double half = half_length(), near = std::min(clear, half);
     if (!(norm(s.middle - task_.domain.tip) < near * h_))
       return meet(s, shut);
-    if (near_tip_)
-      return *near_tip_;
-    Segment at = clear_of_tip(s, near);
-    near_tip_ = meet(at, shut);
+    if (!near_tip_)
+      near_tip_ = meet_behind_tip(near, half);
+    return near_tip_->holds && touch(clear_of_tip(s, std::min(1.0, near)), shut) ? *near_tip_ : Meeting{};
+  }
+
+  /// Friction is that of the first place behind so many cells, and the pressure the mean of some places, a cell apart,
+  /// as nodes take turns in bearing it.
+  Meeting meet_behind_tip(double near, double half) {
+    const Segment tip = next_to_tip();
+    Segment at = clear_of_tip(tip, near);
+    Meeting m = meet(at, shut);
     const Vec2 n = at.normal;
-    const double pressure = dot(near_tip_->traction, n);
-    task_.sums.shut = pressure > 0 && meet(clear_of_tip(s, std::min(1.0, near)), shut).holds;
+    const double pressure = dot(m.traction, n);
+    task_.sums.shut = pressure > 0 && meet(clear_of_tip(tip, std::min(1.0, near)), shut).holds;
     double sum = pressure;
     int count = 1;
-    for (double cells = near + 1; near_tip_->holds && count < places && cells <= half; ++cells, ++count) {
+    for (double cells = near + 1; m.holds && count < places && cells <= half; ++cells, ++count) {
       at = clear_of_tip(at, cells);
       sum += dot(meet(at, shut).traction, at.normal);
     }
-    near_tip_->traction += (sum / count - pressure) * n;
-    return *near_tip_;
+    m.traction += (sum / count - pressure) * n;
+    return m;
   }
 
   /// Cells from the tip to the middle between it and the other one, or a bend, or to the other end.

@@ -5,6 +5,7 @@
 
 #include "core/fracture/auxiliary_fields.hpp"
 #include "kernels/body_forces.hpp"
+#include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
 #include "kernels/gather.hpp"
 #include "kernels/j_integral.hpp"
@@ -21,8 +22,9 @@ struct AreaSums {
   void add(const State<Real, 2>& s, const FieldSlots& slots, const TipTask& task, const int* particle, int count) {
     alignas(64) int at[lanes];
     std::copy_n(particle, lanes, at);
+    const bool rests = task.running.speed == 0;  // and grad v counts in nothing
     if (task.inertia)
-      gather_motion(s, slots, at, count);
+      with_flag(!rests, [&](auto gradient) { gather_motion<decltype(gradient)::value>(s, slots, at, count); });
     if (task.forces != nullptr)
       take_forces(*task.forces, at, count);
     weigh(s, task, at, count);
@@ -43,7 +45,6 @@ struct AreaSums {
     // With known fields at rest rho a_i du_i/dx alone is left of P. Around a tip that runs at one speed, with all
     // fields about it, the parts of P cancel; between the two none of them is taken, so that inertia changes J of a tip
     // that runs but not what drives it, unless its opening says that.
-    const bool rests = task.running.speed == 0;
     if (task.interaction && (rests || task.forces != nullptr))
       with_fields(*task.solid, task.running, [&](const auto& fields) { add_interaction(task, rests ? 1 : 0, fields); });
   }
@@ -56,8 +57,9 @@ struct AreaSums {
   }
 
  private:
-  /// Velocity gradient and acceleration from the advanced grid. Most particles see no crack: their nodes' slots follow
-  /// each other along a row.
+  /// Acceleration, and velocity gradient if asked for, from the advanced grid. Most particles see no crack: their
+  /// nodes' slots follow each other along a row.
+  template <bool Gradient>
   void gather_motion(const State<Real, 2>& s, const FieldSlots& slots, const int* at, int count) {
     const Particles<Real, 2>& p = s.particles;
     const Lattice& l = s.grid.lattice;
@@ -70,13 +72,16 @@ struct AreaSums {
       body[k] = p.body[at[k]];
     }
     Block<Real, Shape> w;
-    w.template weigh<true>({x, y, l.origin.x, l.origin.y, 1 / l.h, {s.domains.data(), body, s.domains.size() == 1}}, 0);
+    w.template weigh<Gradient>({x, y, l.origin.x, l.origin.y, 1 / l.h, {s.domains.data(), body, s.domains.size() == 1}},
+                               0);
     for (int k = 0; k < count; ++k) {
       const std::uint32_t word = s.fields.fields[at[k]];
-      set_motion(k, word == 0 ? gather<true>(w, k, q, l.nx) : gather_across(w, k, q, l.nx, slots, word));
+      set_motion<Gradient>(
+          k, word == 0 ? gather<Gradient>(w, k, q, l.nx) : gather_across<Gradient>(w, k, q, l.nx, slots, word));
     }
   }
 
+  template <bool Gradient>
   static RIVEN_INLINE Gathered<Real> gather_across(const Block<Real, Shape>& w, int k, const Real* q, int nx,
                                                    const FieldSlots& slots, std::uint32_t word) {
     int slot[nodes];
@@ -87,14 +92,17 @@ struct AreaSums {
         const int n = j * Shape::width + i, node = (w.iy[k] + j) * nx + w.ix[k] + i;
         slot[n] = slots.among_cracks(node, CrackFields::field_of(word, n));
       }
-    return gather_slots<true>(w, k, q, slot);
+    return gather_slots<Gradient>(w, k, q, slot);
   }
 
+  template <bool Gradient>
   RIVEN_INLINE void set_motion(int k, const Gathered<Real>& m) {
-    gxx[k] = m.dx[0];
-    gxy[k] = m.dy[0];
-    gyx[k] = m.dx[1];
-    gyy[k] = m.dy[1];
+    if constexpr (Gradient) {
+      gxx[k] = m.dx[0];
+      gxy[k] = m.dy[0];
+      gyx[k] = m.dx[1];
+      gyy[k] = m.dy[1];
+    }
     ax[k] = m.value[2];
     ay[k] = m.value[3];
   }

@@ -61,6 +61,14 @@ TEST(Doubts, NameMaterialsThatNoSolidIsMadeOf) {
   expect_doubt(s, "material steel", "faster than in diamond");
 }
 
+TEST(Doubts, NameBodiesFasterThanTheirWaves) {
+  Scene s = sound_scene();
+  s.bodies[0].velocity = {3e3, 4e3};
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].velocity = {3.2e3, 4e3};  // waves run at 5172 m/s
+  expect_doubt(s, "body plate", "faster than its waves");
+}
+
 TEST(Doubts, NameGrowthOnFlip) {
   Scene s = sound_scene();
   s.growth = GrowthRule{};

@@ -72,6 +72,25 @@ TEST(BodyForces, LeaveACrackAlongThemAlone) {
     }
 }
 
+/// Behind a bend the known fields change sign across the crack, and so does their work on what acts in between.
+TEST(BodyForces, ActOnBothSidesOfABend) {
+  constexpr double h = 1 * mm, arm = 3 * h;
+  Scene s = hanging_plate(6 * tension, false);
+  const Vec2 bend{0, a - arm}, aside{arm * std::numbers::sqrt2 / 2, arm * std::numbers::sqrt2 / 2};
+  s.cracks[0].points = {{0, -a}, bend, bend + aside};
+  Plate plate(s);
+  print("with weight", plate.hold());
+  const Tip near = plate.tip(4, JMethod::fijc_adaptive, 1);
+  for (const int contour : {8, 16}) {
+    const Tip far = plate.tip(contour, JMethod::fijc_adaptive, 1);
+    const std::string what = fmt::format("kinked crack in a plate with weight, {} cells", contour);
+    report(what + ": M_I over that by 4 cells", far.M_I / near.M_I, "1 +- 0.02");
+    report(what + ": M_II less that by 4 cells, over M_I", (far.M_II - near.M_II) / near.M_I, "0 +- 0.02");
+    EXPECT_NEAR(far.M_I, near.M_I, 0.02 * near.M_I);
+    EXPECT_NEAR(far.M_II, near.M_II, 0.02 * near.M_I);
+  }
+}
+
 /// What falls freely bears no weight: inertia and body force cancel, in small contours, too.
 TEST(BodyForces, AreNothingToACrackThatFallsWithThem) {
   constexpr int steps = 600, last = 100;

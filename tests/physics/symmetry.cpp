@@ -185,5 +185,42 @@ TEST(CrackInANeck, LeavesItAsItsMirrorImageDoes) {
   }
 }
 
+/// Beside a crack that a pressure opens, another one that is open next to its first tip and pressed shut three cells
+/// behind it. What shuts is found along the crack, and not by which cells of the grid come first.
+TEST(PartlyShutCrack, HasTheSameKInAllMirrorImages) {
+  constexpr double width = 25, height = 23;
+  const auto first_tip = [](double cell, bool in_x, bool in_y) {
+    const auto place = [=](Vec2 x) { return Vec2{in_x ? width - x.x : x.x, in_y ? height - x.y : x.y}; };
+    Scene s = empty_scene(cell, {{-4, -4}, {width + 4, height + 4}});
+    s.bodies = {body("plate", Rectangle{{0, 0}, {width, height}})};
+    CrackLine opens = crack("opens", {place({8.437, 12.72}), place({16.514, 15.635})});
+    opens.traction.emplace();
+    opens.traction->pressure = TimeFunction{2e3, [](double t) { return std::min(1., t / 0.25); }, ""};
+    s.cracks = {opens, crack("shuts", {place({7.071, 14.567}), place({12.998, 14.736})})};
+    s.fracture.asked = true;
+    s.end_time = 0.53;
+    s.output.history_every = 0.01;
+    const ChosenSpace space;
+    Simulation m(s, space);
+    run(m);
+    return m.state.tips[2];
+  };
+  const Tip fine = first_tip(0.25, false, false), plain = first_tip(1, false, false);
+  const double K = std::hypot(fine.K_I, fine.K_II);
+  gates::report("partly shut crack, K_I less that by cells a quarter as large, over its K", (plain.K_I - fine.K_I) / K,
+                "0 +- 0.1");
+  gates::report("and K_II", (plain.K_II - fine.K_II) / K, "0 +- 0.1");
+  EXPECT_NEAR(plain.K_I, fine.K_I, 0.1 * K);
+  EXPECT_NEAR(plain.K_II, fine.K_II, 0.1 * K);
+  for (const bool in_x : {false, true})
+    for (const bool in_y : {false, true}) {
+      const Tip tip = first_tip(1, in_x, in_y);
+      const double sign = in_x == in_y ? 1 : -1;
+      EXPECT_NEAR(tip.K_I, plain.K_I, 1e-6 * K) << in_x << in_y;
+      EXPECT_NEAR(tip.K_II, sign * plain.K_II, 1e-6 * K) << in_x << in_y;
+      EXPECT_NEAR(tip.J, plain.J, 1e-6 * plain.J) << in_x << in_y;
+    }
+}
+
 }  // namespace
 }  // namespace riven
