@@ -89,10 +89,9 @@ void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
   const Material& m = s.materials[static_cast<size_t>(b.material)];
   const double waves = std::sqrt(m.E / m.density), speed = norm(b.velocity);
   if (speed > waves)
-    list.push_back(
-        {place(s, "body " + b.name),
-         fmt::format("it begins at {:.4g} m/s, faster than its waves, which run at {:.4g}", speed, waves),
-         "look at the unit of velocity"});
+    list.push_back({place(s, "body " + b.name),
+                    fmt::format("it begins at {:.4g} m/s, faster than its waves, which run at {:.4g}", speed, waves),
+                    "look at the unit of velocity"});
 }
 
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
