@@ -5,6 +5,7 @@
 #include <numbers>
 #include <variant>
 
+#include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
 #include "io/doubts.hpp"
 

@@ -170,7 +170,7 @@ def colours(name, values):
         high = max(abs(low - 1), abs(high - 1), 1e-12)
         low, high, map_name = 1 - high, 1 + high, "RdBu_r"
     else:
-        map_name = "viridis" if low >= 0 else "viridis_r"
+        map_name = "viridis"
     if low == high:
         low, high = low - 0.5, high + 0.5
     extend = ("neither", "min", "max", "both")[int(finite.min() < low) + 2 * int(finite.max() > high)]
