@@ -1,11 +1,9 @@
-// Loads that act where they are seldom meant to: tractions on edges at an angle to the grid and in holes, and grips on
-// both faces of a crack.
+// Tractions that act where they are seldom meant to: on edges at an angle to the grid, and in holes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <variant>
 
-#include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
 #include "io/doubts.hpp"
 
@@ -74,40 +72,9 @@ bool acts_on(const Load& load, const Region& region, double solid, const Wanted&
   });
 }
 
-/// Does a grip that lies on one side of a crack reach nodes that see the other face, too?
-bool holds_both_faces(const Scene& s, const Grip& g, const CrackLine& c) {
-  const double h = s.cell, aside = 1.5 * h, reach = 0.95 * h;  // from a cell away on it does not
-  const auto holds = [&](Vec2 x) { return contains(g.region, x); };
-  for (size_t i = 1; i < c.points.size(); ++i) {
-    const Vec2 all = c.points[i] - c.points[i - 1];
-    const int parts = static_cast<int>(std::ceil(norm(all) / (0.25 * h)));
-    const Vec2 along = (1 / norm(all)) * all, n = turned(along);
-    const auto solid_at = [&](Vec2 x) {  // or at its edge
-      return body_at(s, x) >= 0 || body_at(s, x + aside * along) >= 0 || body_at(s, x - aside * along) >= 0;
-    };
-    for (int k = 0; k <= parts; ++k) {
-      const Vec2 x = c.points[i - 1] + (static_cast<double>(k) / parts) * all;
-      if (holds(x + aside * n) != holds(x - aside * n) && (holds(x) || holds(x + reach * n) || holds(x - reach * n)) &&
-          solid_at(x + aside * n) && solid_at(x - aside * n))
-        return true;
-    }
-  }
-  return false;
-}
-
-void doubt_grips(const Scene& s, std::vector<Doubt>& list) {
-  for (const Grip& g : s.grips)
-    for (const CrackLine& c : s.cracks)
-      if (holds_both_faces(s, g, c))
-        list.push_back({place(s, "grip " + g.name),
-                        fmt::format("it ends within a cell of crack {}, and moves both faces of it", c.name),
-                        "let it end a cell or more away from the crack"});
-}
-
 }  // namespace
 
 void doubt_loads(const Scene& s, std::vector<Doubt>& list) {
-  doubt_grips(s, list);
   for (const Load& load : s.loads) {
     if (load.kind != Load::Kind::traction)
       continue;

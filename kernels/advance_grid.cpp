@@ -127,23 +127,17 @@ GridSums grid_sums(const exec::Space& space, const State<Real, 2>& s, double dam
     return sums;
   // Damping acted on what grips had made of velocities, which they hand to the accelerations later.
   const Constraint* list = exec::data(s.constraints.list);
-  const double* change = exec::data(s.constraints.change[0]);
+  const Vec2* change = exec::data(s.constraints.change[0]);
   const int first_grip = s.constraints.first_grip();
   sums += exec::parallel_sum<GridSums>(
       space, "grid sums", s.constraints.list.size(), [=] RIVEN_KERNEL(long n, GridSums& sum) {
         const Constraint& c = list[n];
-        for (int f = 0; f < slots.count(c.node); ++f) {
-          const long slot = slots.of(c.node, f);
-          double carried[2] = {0, 0};
-          for (int axis = 0; axis < 2; ++axis)
-            if (c.owner[axis] >= first_grip)
-              carried[axis] = change[slots.component(n, f, axis)];
-          const Vec2 more = -one.damping * one.dt * Vec2{carried[0], carried[1]};
-          const Vec2 after{one.q[4 * slot], one.q[4 * slot + 1]}, a{one.q[4 * slot + 2], one.q[4 * slot + 3]};
-          sum.damping_impulse += more;
-          sum.damping_work -= dot(more, after - 0.5 * one.dt * a);
-          sum.damping_torque += cross(lattice.position(c.node), more);
-        }
+        const Vec2 carried{c.owner[0] >= first_grip ? change[n].x : 0, c.owner[1] >= first_grip ? change[n].y : 0};
+        const Vec2 more = -one.damping * one.dt * carried;
+        const Real* q = one.q + 4L * c.slot;
+        sum.damping_impulse += more;
+        sum.damping_work -= dot(more, Vec2{q[0], q[1]} - 0.5 * one.dt * Vec2{q[2], q[3]});
+        sum.damping_torque += cross(lattice.position(c.node), more);
       });
   return sums;
 }

@@ -9,7 +9,6 @@ inline namespace RIVEN_SIDE {
 struct FieldSlots {
   FieldSlots(const CrackFields& f, int nodes)
       : nodes_(nodes),
-        most_(f.third_normals.empty() ? 4 : 1 << most_held),
         extra_(f.extra.empty() ? nullptr : exec::data(f.extra)),
         index_(exec::data(f.node_index)),
         start_(exec::data(f.candidate_start)) {}
@@ -22,10 +21,6 @@ struct FieldSlots {
     const int seen = start_[i + 1] - start_[i];
     return 1 << (seen < most_held ? seen : most_held);
   }
-  /// Of any node, at most.
-  RIVEN_INLINE int most() const { return most_; }
-  /// Where a component of a field of entry n of a list of nodes stands among the two of each of its `most` fields.
-  RIVEN_INLINE long component(long n, int field, int axis) const { return 2 * (most_ * n + field) + axis; }
   RIVEN_INLINE long of(int node, int field) const {
     return field == 0 || !extra_ ? node : long{nodes_} + extra_[node] + field - 1;
   }
@@ -36,7 +31,7 @@ struct FieldSlots {
   }
 
  private:
-  int nodes_, most_;
+  int nodes_;
   const int *extra_, *index_, *start_;
 };
 

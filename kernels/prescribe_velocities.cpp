@@ -9,6 +9,7 @@
 #include "core/state/lay_points.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
+#include "kernels/rigid_sight.hpp"
 #include "kernels/strain_shares.hpp"
 
 namespace riven {
@@ -17,17 +18,54 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
-/// Adds a component of a node to the list, or hands it to a later owner.
-void claim(std::vector<Constraint>& list, exec::Array<int>& at_node, int node, int axis, int owner) {
+/// Adds a component of a node to those fixed, or hands it to a later owner.
+void claim_node(std::vector<Constraint>& fixed, exec::Array<int>& at_node, int node, int axis, int owner) {
   int& at = at_node[node];
   if (at == 0) {
-    list.push_back({node, 0, {-1, -1}});
-    at = static_cast<int>(list.size());
+    fixed.push_back({node, node, 0, {-1, -1}});
+    at = static_cast<int>(fixed.size());
   }
-  Constraint& c = list[static_cast<size_t>(at - 1)];
+  Constraint& c = fixed[static_cast<size_t>(at - 1)];
   c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
   c.owner[axis] = static_cast<std::int16_t>(owner);
 }
+
+/// The list of a step in the making. A node that is claimed gets an entry for each of its fields.
+class FieldClaims {
+ public:
+  FieldClaims(const FieldSlots& slots, exec::Array<int>& at_node) : slots_(slots), at_node_(at_node) {}
+  ~FieldClaims() {
+    for (const Constraint& k : list_)
+      at_node_[k.node] = 0;
+  }
+
+  void claim(int node, int field, int axis, int owner) {
+    Constraint& c = list_[first_of(node) + static_cast<size_t>(field)];
+    c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
+    c.owner[axis] = static_cast<std::int16_t>(owner);
+  }
+  void claim_all(const Constraint& of) {
+    const size_t first = first_of(of.node);
+    for (size_t k = first; k < list_.size(); ++k)
+      list_[k] = {of.node, list_[k].slot, of.mask, {of.owner[0], of.owner[1]}};
+  }
+  const std::vector<Constraint>& list() const { return list_; }
+
+ private:
+  size_t first_of(int node) {
+    int& at = at_node_[node];
+    if (at == 0) {
+      at = static_cast<int>(list_.size()) + 1;
+      for (int f = 0; f < slots_.count(node); ++f)
+        list_.push_back({node, static_cast<int>(slots_.of(node, f)), 0, {-1, -1}});
+    }
+    return static_cast<size_t>(at - 1);
+  }
+
+  const FieldSlots slots_;
+  exec::Array<int>& at_node_;
+  std::vector<Constraint> list_;
+};
 
 /// Node numbers along one axis that lie in [lower, upper]; a range that touches a wall goes on behind it.
 std::pair<int, int> node_range(const Lattice& l, int axis, double lower, double upper) {
@@ -41,21 +79,21 @@ std::pair<int, int> node_range(const Lattice& l, int axis, double lower, double 
   return {std::max(first, 0), std::min(last, (axis == 0 ? l.nx : l.ny) - 1)};
 }
 
-void claim_box(std::vector<Constraint>& list, exec::Array<int>& at_node, const Lattice& l, std::pair<int, int> x,
+void claim_box(std::vector<Constraint>& fixed, exec::Array<int>& at_node, const Lattice& l, std::pair<int, int> x,
                std::pair<int, int> y, const ConstraintOwner& owner, int number) {
   for (int j = y.first; j <= y.second; ++j)
     for (int i = x.first; i <= x.second; ++i)
       for (int axis = 0; axis < 2; ++axis)
         if (owner.velocity[axis])
-          claim(list, at_node, j * l.nx + i, axis, number);
+          claim_node(fixed, at_node, j * l.nx + i, axis, number);
 }
 
 /// The nodes on which a rigid particle has a weight of a hundredth or more along both axes. With less, those of the
 /// next row move as the body has them: else it would be a cell shorter as soon as a grip is pushed into it, however
 /// little. With a larger share left free, what a bar's stress loses at its ends where they move past grid lines would
-/// be more than a per cent.
+/// be more than a per cent. Of a node near cracks only the field on the particle's side moves with it.
 template <class Shape>
-void claim_grip(std::vector<Constraint>& list, exec::Array<int>& at_node, const Lattice& l, const GripBlock& grip,
+void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, const GripBlock& grip,
                 const ConstraintOwner& owner) {
   constexpr double least = 0.01;
   AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
@@ -65,11 +103,16 @@ void claim_grip(std::vector<Constraint>& list, exec::Array<int>& at_node, const 
     const auto x = Shape::axis((p.x - l.origin.x) / l.h, a);
     const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
     for (int j = 0; j < Shape::width; ++j)
-      for (int i = 0; i < Shape::width; ++i)
-        if (x.s[i] > least && y.s[j] > least)
+      for (int i = 0; i < Shape::width; ++i) {
+        if (!(x.s[i] > least && y.s[j] > least))
+          continue;
+        const int node = (y.base + j) * l.nx + x.base + i;
+        const unsigned fields = sight.fields_of(p, node);
+        for (int field = 0; fields >> field != 0; ++field)
           for (int axis = 0; axis < 2; ++axis)
-            if (owner.velocity[axis])
-              claim(list, at_node, (y.base + j) * l.nx + x.base + i, axis, grip.owner);
+            if (fields >> field & 1u && owner.velocity[axis])
+              claims.claim(node, field, axis, grip.owner);
+      }
   }
 }
 
@@ -132,22 +175,20 @@ void list_constraints(const Plan& plan, State<Real, 2>& s) {
     c.now[i] = {o.now[0], o.now[1]};
     c.next[i] = {o.next[0], o.next[1]};
   }
-  std::vector<Constraint> list = c.fixed;
-  for (size_t i = 0; i < list.size(); ++i)
-    c.at_node[list[i].node] = static_cast<int>(i) + 1;
+  const Lattice& l = s.grid.lattice;
+  FieldClaims claims(FieldSlots(s.fields, l.nodes()), c.at_node);
+  for (const Constraint& k : c.fixed)
+    claims.claim_all(k);
+  const RigidSight sight(l, s.cracks, s.fields);
   with_shape(plan.shape, [&](auto shape) {
     for (const GripBlock& g : c.grips)
-      claim_grip<typename decltype(shape)::type>(list, c.at_node, s.grid.lattice, g,
-                                                 c.owners[static_cast<size_t>(g.owner)]);
+      claim_grip<typename decltype(shape)::type>(claims, sight, l, g, c.owners[static_cast<size_t>(g.owner)]);
   });
-  for (const Constraint& k : list)
-    c.at_node[k.node] = 0;
-  c.list.resize(static_cast<long>(list.size()));
-  std::copy(list.begin(), list.end(), c.list.begin());
+  c.list.resize(static_cast<long>(claims.list().size()));
+  std::copy(claims.list().begin(), claims.list().end(), c.list.begin());
   c.impulse.resize(c.list.size());
-  const long numbers = 2L * FieldSlots(s.fields, s.grid.lattice.nodes()).most() * c.list.size();
-  for (exec::Array<double>& change : c.change) {
-    change.resize(numbers);
+  for (exec::Array<Vec2>& change : c.change) {
+    change.resize(c.list.size());
     change.zero();
   }
 }
@@ -177,41 +218,35 @@ template <class Real>
 void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage stage, double early_impulse) {
   Constraints& c = s.constraints;
   const int first_grip = c.first_grip();
-  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const Constraint* list = exec::data(std::as_const(c.list));
   const Vec2* velocity = exec::data(std::as_const(stage == Stage::before ? c.now : c.next));
   Vec2* impulse = exec::data(c.impulse);
-  double *first = exec::data(c.change[0]),
-         *noted = stage == Stage::term ? nullptr : exec::data(c.change[static_cast<int>(stage)]);
+  Vec2 *first = exec::data(c.change[0]),
+       *noted = stage == Stage::term ? nullptr : exec::data(c.change[static_cast<int>(stage)]);
   const Real* mass = exec::data(std::as_const(s.grid.mass));
   Real* q = exec::data(stage == Stage::again ? s.grid.again : stage == Stage::term ? s.grid.next : s.grid.q);
   const bool momenta = stage == Stage::before || stage == Stage::again;
   const double inv_dt = 1 / s.clock.dt;
   exec::parallel_for(space, "prescribe velocities", c.list.size(), [=] RIVEN_KERNEL(long n) {
     const Constraint k = list[n];
-    double given[2] = {0, 0};
-    for (int f = 0; f < slots.count(k.node); ++f) {
-      const long slot = slots.of(k.node, f);
-      const double m = mass[slot];
-      if (!(m > 0))
+    const double m = mass[k.slot];
+    double given[2] = {0, 0}, changed[2] = {0, 0};
+    for (int axis = 0; axis < 2 && m > 0; ++axis) {
+      if (!(k.mask & (1u << axis)))
         continue;
-      for (int axis = 0; axis < 2; ++axis) {
-        if (!(k.mask & (1u << axis)))
-          continue;
-        const Vec2 given_v = stage == Stage::term ? Vec2{} : velocity[k.owner[axis]];
-        const double v = axis == 0 ? given_v.x : given_v.y;
-        Real& value = q[4 * slot + axis];
-        const double change = momenta ? m * v - value : m * (v - value);
-        value = Real(momenta ? m * v : v);
-        const long at = slots.component(n, f, axis);
-        const bool carry = k.owner[axis] >= first_grip;
-        if (noted)
-          noted[at] = change;
-        if (stage == Stage::after)
-          q[4 * slot + 2 + axis] += Real((change + (carry ? first[at] : 0)) / m * inv_dt);
-        given[axis] += stage == Stage::before && !carry ? early_impulse * change : change;
-      }
+      const Vec2 given_v = stage == Stage::term ? Vec2{} : velocity[k.owner[axis]];
+      const double v = axis == 0 ? given_v.x : given_v.y, earlier = axis == 0 ? first[n].x : first[n].y;
+      Real& value = q[4L * k.slot + axis];
+      const double change = momenta ? m * v - value : m * (v - value);
+      value = Real(momenta ? m * v : v);
+      const bool carry = k.owner[axis] >= first_grip;
+      if (stage == Stage::after)
+        q[4L * k.slot + 2 + axis] += Real((change + (carry ? earlier : 0)) / m * inv_dt);
+      changed[axis] = change;
+      given[axis] = stage == Stage::before && !carry ? early_impulse * change : change;
     }
+    if (noted)
+      noted[n] = {changed[0], changed[1]};
     impulse[n] = {given[0], given[1]};
   });
   if (stage == Stage::again)
@@ -252,24 +287,21 @@ template <class Real>
 void book_capture(const exec::Space& space, const Plan& plan, double early_impulse, State<Real, 2>& state) {
   const State<Real, 2>& s = state;
   const Constraints& c = s.constraints;
-  const FieldSlots slots(s.fields, s.grid.lattice.nodes());
   const Gains<Real> gain{
       exec::data(s.grid.mass),    exec::data(s.grid.q), plan.extrapolate_again() ? exec::data(s.grid.again) : nullptr,
       strain_shares(plan.update), s.clock.dt,           early_impulse};
   const Constraint* list = exec::data(c.list);
-  const double *before = exec::data(c.change[0]), *now = exec::data(c.change[1]), *last = exec::data(c.change[2]);
+  const Vec2 *before = exec::data(c.change[0]), *now = exec::data(c.change[1]), *last = exec::data(c.change[2]);
   const int first_grip = c.first_grip();
   const Gain sum =
       exec::parallel_sum<Gain>(space, "boundary: capture", c.list.size(), [=] RIVEN_KERNEL(long n, Gain& all) {
         const Constraint k = list[n];
-        for (int f = 0; f < slots.count(k.node); ++f) {
-          const long slot = slots.of(k.node, f);
-          for (int axis = 0; axis < 2 && gain.mass[slot] > 0; ++axis) {
-            const long at = slots.component(n, f, axis);
-            if (k.mask & (1u << axis))
-              all += gain(slot, axis, before[at], now[at], last[at], k.owner[axis] >= first_grip);
-          }
-        }
+        if (!(gain.mass[k.slot] > 0))
+          return;
+        if (k.mask & 1u)
+          all += gain(k.slot, 0, before[n].x, now[n].x, last[n].x, k.owner[0] >= first_grip);
+        if (k.mask & 2u)
+          all += gain(k.slot, 1, before[n].y, now[n].y, last[n].y, k.owner[1] >= first_grip);
       });
   Energy& e = state.ledger.energy;
   e.transfer += sum.early;

@@ -11,9 +11,10 @@
 
 namespace riven {
 
-/// One node whose velocity is prescribed. Components whose mask bit is unset are free.
+/// A node, or one of its velocity fields, whose velocity is prescribed. Components whose mask bit is unset are free.
 struct Constraint {
   int node;
+  int slot;               ///< of the field (grid.hpp)
   std::uint8_t mask;      ///< bit 0: x, bit 1: y
   std::int16_t owner[2];  ///< whose reaction each component is
 };
@@ -67,15 +68,13 @@ struct GripBlock {
 
 struct Constraints {
   std::vector<ConstraintOwner> owners;
-  std::vector<Constraint> fixed;  ///< known from the start
+  std::vector<Constraint> fixed;  ///< nodes known from the start, with all of their fields
   std::vector<GripBlock> grips;
-  exec::Array<Constraint> list;  ///< of this step
+  exec::Array<Constraint> list;  ///< of this step, by fields; those of a node stand together
   exec::Array<Vec2> now, next;   ///< [owners] velocities at the start and the end of this step, m/s
-  exec::Array<Vec2> impulse;     ///< [list] given to each node in the stage at hand, N s
-  /// [2 fields list] kg m/s, change of momentum of each field and component before the update, in it, and after the
-  /// second extrapolation.
-  exec::Array<double> change[3];
-  exec::Array<int> at_node;  ///< [nodes] index into list + 1 while the list is made, else 0
+  exec::Array<Vec2> impulse;     ///< [list] given to each field in the stage at hand, N s
+  exec::Array<Vec2> change[3];   ///< [list] the same before the update, in it, and after the second extrapolation
+  exec::Array<int> at_node;      ///< [nodes] index into list + 1 of the first field while the list is made, else 0
 
   int first_grip() const { return static_cast<int>(owners.size() - grips.size()); }  ///< owners from there on are grips
 };

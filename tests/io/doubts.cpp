@@ -69,24 +69,6 @@ TEST(Doubts, NameBodiesFasterThanTheirWaves) {
   expect_doubt(s, "body plate", "faster than its waves");
 }
 
-/// Nodes within a cell of a grip move with it, whichever face of a crack they see.
-TEST(Doubts, NameGripsOnBothFacesOfACrack) {
-  Scene s = sound_scene();
-  Grip hammer;
-  hammer.name = "hammer";
-  hammer.velocity[0] = TimeFunction{1, {}, ""};
-  for (const double top : {20e-3, 19.5e-3, 20.5e-3}) {
-    hammer.region = Rectangle{{-2e-3, 1e-3}, {0, top}};
-    s.grips = {hammer};
-    expect_doubt(s, "grip hammer", "both faces");
-  }
-  for (const double top : {19e-3, 30e-3}) {  // a cell away, and on both sides of it
-    hammer.region = Rectangle{{-2e-3, 1e-3}, {0, top}};
-    s.grips = {hammer};
-    EXPECT_TRUE(doubts(s).empty()) << top;
-  }
-}
-
 TEST(Doubts, NameGrowthOnFlip) {
   Scene s = sound_scene();
   s.growth = GrowthRule{};

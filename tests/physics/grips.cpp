@@ -1,6 +1,9 @@
-// A bar between two grips that pull it or push it together: its stress against that of a bar of its length.
+// A bar between two grips that pull it or push it together: its stress against that of a bar of its length. Grips that
+// end on a crack: what they move, and what friction they feel.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +65,117 @@ TEST(Grips, HoldABarAtItsEnds) {
                     error, fmt::format("{}", limit));
       EXPECT_LT(std::abs(error), limit) << way;
     }
+}
+
+/// 20 x 12 cells, each 1 m, cut along the middle, and a grip at the left edge of the lower half that ends `over` the
+/// crack.
+Scene half_gripped(ShapeFunction shape, double over) {
+  Scene s = empty_scene(1, {{-6, -10}, {length + 6, 10}});
+  s.shape = shape;
+  s.bodies = {body("block", Rectangle{{0, -6}, {length, 6}})};
+  s.cracks = {crack("middle", {{0, 0}, {length, 0}})};
+  s.contact.law = ContactLaw::ignored;
+  Grip g;
+  g.name = "hammer";
+  g.region = Rectangle{{-4, -6}, {0, over}};
+  g.velocity[0] = constant(0.1);
+  s.grips = {g};
+  s.end_time = 0.3;
+  return s;
+}
+
+struct Halves {
+  double largest[2] = {}, mean[2] = {};  ///< m/s, velocity of the particles above and below the crack, and that along x
+};
+
+Halves halves_moved(const Scene& s, double crack_at) {
+  const ChosenSpace space;
+  Simulation m(s, space);
+  std::vector<int> half(static_cast<size_t>(m.state.particles.count()));  // by id
+  const auto& p = m.state.particles;
+  for (long i = 0; i < p.count(); ++i)
+    half[static_cast<size_t>(p.id[i])] = p.x[1][i] < crack_at;
+  while (!m.finished())
+    m.step();
+  Halves h;
+  for (long i = 0; i < p.count(); ++i) {
+    const int at = half[static_cast<size_t>(p.id[i])];
+    h.largest[at] = std::max({h.largest[at], std::abs(p.v[0][i]), std::abs(p.v[1][i])});
+    h.mean[at] += 2 * p.v[0][i] / static_cast<double>(p.count());
+  }
+  return h;
+}
+
+TEST(Grips, MoveTheFaceOnTheirOwnSideOfACrackAlone) {
+  for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::ugimp, ShapeFunction::bspline})
+    for (const auto& [over, at] : {std::pair{-0.5, 0.}, {0., 0.}, {0.3, 0.4}})
+      for (const bool reversed : {false, true}) {
+        Scene s = half_gripped(shape, over);
+        s.cracks[0].points = {{0, at}, {length, at}};
+        if (reversed)
+          std::swap(s.cracks[0].points[0], s.cracks[0].points[1]);
+        const Halves h = halves_moved(s, at);
+        EXPECT_EQ(h.largest[0], 0) << name_of(shape) << ", up to " << over << ", crack at " << at;
+        EXPECT_GT(h.mean[1], 0.01) << name_of(shape) << ", up to " << over << ", crack at " << at;
+      }
+}
+
+TEST(Grips, MoveBothFacesOfABondedCrack) {
+  Scene bonded = half_gripped(ShapeFunction::ugimp, 0), whole = bonded;
+  bonded.contact.law = ContactLaw::bonded;
+  whole.cracks.clear();
+  const Halves a = halves_moved(bonded, 0), b = halves_moved(whole, 0);
+  for (int half = 0; half < 2; ++half)
+    EXPECT_NEAR(a.mean[half], b.mean[half], 1e-3 * b.mean[half]);
+}
+
+/// The halves of a block of 20 x 12 cells, pressed together by 1 kPa, are pushed over each other by grips at their
+/// sides: what holds them back is the friction coefficient times the load, 0.3 x 1 kPa x 20 m.
+TEST(Grips, ShearABlockAlongACrack) {
+  Scene s = half_gripped(ShapeFunction::ugimp, 0);
+  s.contact.law = ContactLaw::coulomb;
+  s.contact.friction = 0.3;
+  s.grips.clear();
+  const auto from = [](double start) { return [start](double t) { return std::clamp((t - start) / 4, 0., 1.); }; };
+  for (const bool upper : {false, true})
+    for (const bool right : {false, true}) {
+      Grip g;
+      g.name = fmt::format("{} {}", upper ? "upper" : "lower", right ? "right" : "left");
+      const double x = right ? length : -2, y = upper ? 0 : -6;
+      g.region = Rectangle{{x, y}, {x + 2, y + 6}};
+      g.velocity[0] = upper ? TimeFunction{0.01, from(4), ""} : constant(0);
+      s.grips.push_back(g);
+    }
+  Grip floor;
+  floor.name = "floor";
+  floor.region = Rectangle{{0, -8}, {length, -6}};
+  floor.velocity[1] = constant(0);
+  s.grips.push_back(floor);
+  Load top;
+  top.name = "top";
+  top.kind = Load::Kind::traction;
+  top.edge = Load::Edge::top;
+  top.region = Rectangle{{0, 5}, {length, 6}};
+  top.value[1] = TimeFunction{-1e3, from(0), ""};
+  s.loads = {top};
+  s.grid_damping = constant(5);
+  s.end_time = 14;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  double impulse = 0, since = 0;
+  while (!m.finished()) {
+    m.step();
+    const Clock& c = m.state.clock;
+    if (c.time < 10)
+      continue;
+    since += c.dt;
+    for (int lower = 0; lower < 2; ++lower)
+      impulse -= c.dt * m.state.constraints.owners[static_cast<size_t>(lower)].reaction.x;
+  }
+  const double friction = impulse / since / (0.3 * 1e3 * length);
+  gates::report("shear box: force on its lower half over friction times load", friction, "0.95 to 1.02");
+  EXPECT_GT(friction, 0.95);
+  EXPECT_LT(friction, 1.02);
 }
 
 }  // namespace
