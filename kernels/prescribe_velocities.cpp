@@ -39,10 +39,17 @@ class FieldClaims {
       at_node_[k.node] = 0;
   }
 
-  void claim(int node, int field, int axis, int owner) {
-    Constraint& c = list_[first_of(node) + static_cast<size_t>(field)];
-    c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
-    c.owner[axis] = static_cast<std::int16_t>(owner);
+  /// The components of `mask`, of the fields whose bits are set.
+  void claim(int node, unsigned fields, unsigned mask, int owner) {
+    for (size_t at = first_of(node); fields != 0; fields >>= 1, ++at) {
+      if (!(fields & 1u))
+        continue;
+      Constraint& c = list_[at];
+      c.mask = static_cast<std::uint8_t>(c.mask | mask);
+      for (int axis = 0; axis < 2; ++axis)
+        if (mask & (1u << axis))
+          c.owner[axis] = static_cast<std::int16_t>(owner);
+    }
   }
   void claim_all(const Constraint& of) {
     const size_t first = first_of(of.node);
@@ -99,6 +106,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
   AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
   b.wall_lower = l.wall_lower[1];
   b.wall_upper = l.wall_upper[1];
+  const unsigned mask = (owner.velocity[0] ? 1u : 0u) | (owner.velocity[1] ? 2u : 0u);
   for (const Vec2 p : grip.points) {
     const auto x = Shape::axis((p.x - l.origin.x) / l.h, a);
     const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
@@ -107,11 +115,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
         if (!(x.s[i] > least && y.s[j] > least))
           continue;
         const int node = (y.base + j) * l.nx + x.base + i;
-        const unsigned fields = sight.fields_of(p, node);
-        for (int field = 0; fields >> field != 0; ++field)
-          for (int axis = 0; axis < 2; ++axis)
-            if (fields >> field & 1u && owner.velocity[axis])
-              claims.claim(node, field, axis, grip.owner);
+        claims.claim(node, sight.fields_of(p, node), mask, grip.owner);
       }
   }
 }

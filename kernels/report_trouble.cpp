@@ -19,7 +19,7 @@ std::string where(const State<Real, 2>& s, long i) {
 }
 
 constexpr const char* cures =
-    "a smaller solver.cfl; solver.stress_update = \"usavg\" or \"musl\"; solver.shape = \"ugimp\"; "
+    "solver.stress_update = \"usavg\" or \"musl\"; a smaller solver.cfl; solver.shape = \"ugimp\"; "
     "a solver.order of 4 or less";
 
 /// Fails with the particle's step, time and place.
