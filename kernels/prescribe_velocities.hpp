@@ -1,5 +1,5 @@
-// Prescribed grid velocities on every field of the nodes of fixed lines, symmetry planes and grips, and the reaction
-// that they take. With v0 = p / m as the particles gave it,
+// Prescribed grid velocities on the fields that list_constraints.hpp lists, and the reaction that they take. With
+// v0 = p / m as the particles gave it,
 //   before the momentum update   p = m v(t)
 //   after it                     v = v(t + dt), a = (v(t + dt) - v(t)) / dt
 // A mirror image would add to the node so that p = m v(t) without a change to any particle: FLIP must not hear of it
@@ -16,14 +16,6 @@ inline namespace RIVEN_SIDE {
 
 /// term: a term of the higher-order series, which vanishes where velocities are prescribed.
 enum class Stage { before, after, again, term };
-
-/// Turns the scene's fixed lines, symmetry planes and grips into lists of nodes and rigid particles.
-template <class Real>
-void make_constraints(const Scene&, State<Real, 2>&);
-
-/// Lists the nodes of this step and evaluates the prescribed velocities at t and t + dt.
-template <class Real>
-void list_constraints(const Plan&, State<Real, 2>&);
 
 /// `early_impulse`: how much of a change of momenta before the update reaches the particles (0: FLIP, 1: PIC), in that
 /// stage.

@@ -25,6 +25,8 @@ class RigidSight {
         start_(exec::data(cracks.start)),
         laws_(exec::data(cracks.contact)) {}
 
+  bool sees_cracks(int node) const { return any_ && lists_.node_index[node] >= 0; }
+
   /// A bit for each field of the node that moves with a rigid particle at x: none where no body on its side of a crack
   /// reaches the node, and those on both sides of a crack that is bonded.
   unsigned fields_of(Vec2 x, int node) const {

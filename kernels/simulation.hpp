@@ -34,6 +34,7 @@ class SimulationOf {
 
   /// Scene and space must outlive the simulation. Throws Error (bad input).
   SimulationOf(const Scene& scene, const exec::Space& space);
+  SimulationOf(Scene&&, const exec::Space&) = delete;
 
   /// Back to the first state.
   void begin();

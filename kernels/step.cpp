@@ -13,6 +13,7 @@
 #include "kernels/grid_to_particle.hpp"
 #include "kernels/grow_cracks.hpp"
 #include "kernels/higher_orders.hpp"
+#include "kernels/list_constraints.hpp"
 #include "kernels/particle_to_grid.hpp"
 #include "kernels/prescribe_velocities.hpp"
 #include "kernels/simulation.hpp"
@@ -117,7 +118,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add_impulses("forget impulses", [](Simulation& m) { clear_impulses(m.state.fields, m.impulses); });
   add_contact(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact<Real>);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
-    list_constraints(m.plan, m.state);
+    list_constraints(m.scene, m.plan, m.state);
     prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
   add_contact(true, "contact before", "contact", contact_before_update<Real>);

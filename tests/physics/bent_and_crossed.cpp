@@ -195,7 +195,8 @@ TEST(BentCracks, HaveThemWhereTheirArmIsPressedTogether) {
 TEST(BentCracks, WarnWhereAPressedArmIsShort) {
   for (const auto& [cells, told] : {std::pair{2.0, true}, {5.0, false}}) {
     const ChosenSpace space;
-    Simulation m(disk_under({-8 * MPa, 6 * MPa, 5 * MPa}, 17 * degree, {with_tail({{cells, 75}})}), space);
+    const Scene s = disk_under({-8 * MPa, 6 * MPa, 5 * MPa}, 17 * degree, {with_tail({{cells, 75}})});
+    Simulation m(s, space);
     while (!m.finished())
       m.step();
     EXPECT_EQ(m.fracture.bent > 0, told) << cells << " cells";

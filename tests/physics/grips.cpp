@@ -1,11 +1,13 @@
 // A bar between two grips that pull it or push it together: its stress against that of a bar of its length. Grips that
-// end on a crack: what they move, and what friction they feel.
+// end on a crack, and fixed nodes there: what they move, and what friction they feel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
@@ -130,8 +132,9 @@ TEST(Grips, MoveBothFacesOfABondedCrack) {
 }
 
 /// The halves of a block of 20 x 12 cells, pressed together by 1 kPa, are pushed over each other by grips at their
-/// sides: what holds them back is the friction coefficient times the load, 0.3 x 1 kPa x 20 m.
-TEST(Grips, ShearABlockAlongACrack) {
+/// sides, or the lower one is held by lines of nodes that end on the crack: what holds them back is the friction
+/// coefficient times the load, 0.3 x 1 kPa x 20 m.
+Scene shear_box(bool fixed_nodes) {
   Scene s = half_gripped(ShapeFunction::ugimp, 0);
   s.contact.law = ContactLaw::coulomb;
   s.contact.friction = 0.3;
@@ -139,9 +142,15 @@ TEST(Grips, ShearABlockAlongACrack) {
   const auto from = [](double start) { return [start](double t) { return std::clamp((t - start) / 4, 0., 1.); }; };
   for (const bool upper : {false, true})
     for (const bool right : {false, true}) {
-      Grip g;
-      g.name = fmt::format("{} {}", upper ? "upper" : "lower", right ? "right" : "left");
+      const std::string name = fmt::format("{} {}", upper ? "upper" : "lower", right ? "right" : "left");
       const double x = right ? length : -2, y = upper ? 0 : -6;
+      if (!upper && fixed_nodes) {
+        const double line = right ? length : 0;
+        s.fixed.push_back({name, {{line, -6}, {line, 0}}, {constant(0), std::nullopt}});
+        continue;
+      }
+      Grip g;
+      g.name = name;
       g.region = Rectangle{{x, y}, {x + 2, y + 6}};
       g.velocity[0] = upper ? TimeFunction{0.01, from(4), ""} : constant(0);
       s.grips.push_back(g);
@@ -160,22 +169,47 @@ TEST(Grips, ShearABlockAlongACrack) {
   s.loads = {top};
   s.grid_damping = constant(5);
   s.end_time = 14;
-  const ChosenSpace space;
-  Simulation m(s, space);
-  double impulse = 0, since = 0;
-  while (!m.finished()) {
-    m.step();
-    const Clock& c = m.state.clock;
-    if (c.time < 10)
-      continue;
-    since += c.dt;
-    for (int lower = 0; lower < 2; ++lower)
-      impulse -= c.dt * m.state.constraints.owners[static_cast<size_t>(lower)].reaction.x;
+  return s;
+}
+
+TEST(Grips, ShearABlockAlongACrack) {
+  for (const bool fixed_nodes : {false, true}) {
+    const ChosenSpace space;
+    const Scene s = shear_box(fixed_nodes);
+    Simulation m(s, space);
+    double impulse = 0, since = 0;
+    while (!m.finished()) {
+      m.step();
+      const Clock& c = m.state.clock;
+      if (c.time < 10)
+        continue;
+      since += c.dt;
+      for (const size_t lower : {0, 1})
+        impulse -= c.dt * m.state.constraints.owners[lower].reaction.x;
+    }
+    const double friction = impulse / since / (0.3 * 1e3 * length);
+    gates::report(fmt::format("shear box, its lower half held by {}: force on it over friction times load",
+                              fixed_nodes ? "nodes" : "grips"),
+                  friction, "0.95 to 1.02");
+    EXPECT_GT(friction, 0.95);
+    EXPECT_LT(friction, 1.02);
   }
-  const double friction = impulse / since / (0.3 * 1e3 * length);
-  gates::report("shear box: force on its lower half over friction times load", friction, "0.95 to 1.02");
-  EXPECT_GT(friction, 0.95);
-  EXPECT_LT(friction, 1.02);
+}
+
+/// Lines of nodes on a crack, on either side of it, and across it: the fields that they hold are seen by what moves.
+TEST(FixedNodes, HoldTheFacesOnWhoseSideTheyLie) {
+  const auto moved = [](Rectangle box) {
+    Scene s = half_gripped(ShapeFunction::ugimp, 0);
+    s.grips.clear();
+    s.fixed = {{"line", box, {constant(0.1), std::nullopt}}};
+    const Halves h = halves_moved(s, 0);
+    return std::pair{h.mean[0] > 0.003, h.mean[1] > 0.003};
+  };
+  EXPECT_EQ(moved({{0, -6}, {0, 0}}), std::pair(false, true));
+  EXPECT_EQ(moved({{0, 0}, {0, 6}}), std::pair(true, false));
+  EXPECT_EQ(moved({{0, -6}, {0, 6}}), std::pair(true, true));
+  EXPECT_EQ(moved({{0, 0}, {length, 0}}), std::pair(true, true));
+  EXPECT_EQ(moved({{0, 0}, {0, 0}}), std::pair(true, true));
 }
 
 }  // namespace

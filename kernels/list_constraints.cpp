@@ -1,0 +1,232 @@
+#include "kernels/list_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/state/lay_points.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/field_slots.hpp"
+#include "kernels/rigid_sight.hpp"
+
+namespace riven {
+
+namespace {
+
+/// Adds a component of a node to those fixed, or hands it to a later owner.
+void claim_node(std::vector<Constraint>& fixed, exec::Array<int>& at_node, int node, int axis, int owner) {
+  int& at = at_node[node];
+  if (at == 0) {
+    fixed.push_back({node, node, 0, {-1, -1}});
+    at = static_cast<int>(fixed.size());
+  }
+  Constraint& c = fixed[static_cast<size_t>(at - 1)];
+  c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
+  c.owner[axis] = static_cast<std::int16_t>(owner);
+}
+
+/// The list of a step in the making. A node that is claimed gets an entry for each of its fields.
+class FieldClaims {
+ public:
+  FieldClaims(const FieldSlots& slots, exec::Array<int>& at_node) : slots_(slots), at_node_(at_node) {}
+  ~FieldClaims() {
+    for (const Constraint& k : list_)
+      at_node_[k.node] = 0;
+  }
+
+  /// The components of `mask`, of the fields whose bits are set.
+  void claim(int node, unsigned fields, unsigned mask, int owner) {
+    for (size_t at = first_of(node); fields != 0; fields >>= 1, ++at) {
+      if (!(fields & 1u))
+        continue;
+      Constraint& c = list_[at];
+      c.mask = static_cast<std::uint8_t>(c.mask | mask);
+      for (int axis = 0; axis < 2; ++axis)
+        if (mask & (1u << axis))
+          c.owner[axis] = static_cast<std::int16_t>(owner);
+    }
+  }
+  unsigned all_of(int node) const { return (1u << slots_.count(node)) - 1; }
+  const std::vector<Constraint>& list() const { return list_; }
+
+ private:
+  size_t first_of(int node) {
+    int& at = at_node_[node];
+    if (at == 0) {
+      at = static_cast<int>(list_.size()) + 1;
+      for (int f = 0; f < slots_.count(node); ++f)
+        list_.push_back({node, static_cast<int>(slots_.of(node, f)), 0, {-1, -1}});
+    }
+    return static_cast<size_t>(at - 1);
+  }
+
+  const FieldSlots slots_;
+  exec::Array<int>& at_node_;
+  std::vector<Constraint> list_;
+};
+
+/// Node numbers along one axis that lie in [lower, upper]; a range that touches a wall goes on behind it.
+std::pair<int, int> node_range(const Lattice& l, int axis, double lower, double upper) {
+  const double origin = axis == 0 ? l.origin.x : l.origin.y;
+  int first = static_cast<int>(std::ceil((lower - origin) / l.h - 1e-6));
+  int last = static_cast<int>(std::floor((upper - origin) / l.h + 1e-6));
+  if (first <= l.wall_lower[axis])
+    first = 0;
+  if (last >= l.wall_upper[axis])
+    last = (axis == 0 ? l.nx : l.ny) - 1;
+  return {std::max(first, 0), std::min(last, (axis == 0 ? l.nx : l.ny) - 1)};
+}
+
+void claim_box(std::vector<Constraint>& fixed, exec::Array<int>& at_node, const Lattice& l, std::pair<int, int> x,
+               std::pair<int, int> y, const ConstraintOwner& owner, int number) {
+  for (int j = y.first; j <= y.second; ++j)
+    for (int i = x.first; i <= x.second; ++i)
+      for (int axis = 0; axis < 2; ++axis)
+        if (owner.velocity[axis])
+          claim_node(fixed, at_node, j * l.nx + i, axis, number);
+}
+
+/// The fields of a node that a box of fixed nodes holds: those on the sides of cracks on which it lies within reach of
+/// a particle. A line has both sides.
+unsigned fields_in_box(const RigidSight& sight, const Lattice& l, const Rectangle& box, int node) {
+  const double reach = 1.2 * l.h, thin = 1e-3 * l.h;
+  const Vec2 x = l.position(node);
+  const auto clamped = [&](double at, double step, double lower, double upper) {
+    const double widen = upper - lower < thin ? thin : 0;
+    return std::clamp(at + step, std::min(at, lower - widen), std::max(at, upper + widen));
+  };
+  unsigned fields = 0;
+  for (const Vec2 step : {Vec2{reach, 0}, Vec2{-reach, 0}, Vec2{0, reach}, Vec2{0, -reach}}) {
+    const Vec2 p{clamped(x.x, step.x, box.lower.x, box.upper.x), clamped(x.y, step.y, box.lower.y, box.upper.y)};
+    if (norm(p - x) >= 0.5 * thin)
+      fields |= sight.fields_of(p, node);
+  }
+  return fields;
+}
+
+/// Planes of symmetry hold all fields of their nodes.
+void claim_fixed(FieldClaims& claims, const RigidSight& sight, const Lattice& l, const Scene& scene,
+                 const Constraint& fixed) {
+  const int planes = static_cast<int>(scene.symmetry.size());
+  for (int axis = 0; axis < 2; ++axis) {
+    const unsigned mask = 1u << axis;
+    const int owner = fixed.owner[axis];
+    if (!(fixed.mask & mask))
+      continue;
+    unsigned fields = 0;
+    if (owner >= planes && sight.sees_cracks(fixed.node))
+      fields = fields_in_box(sight, l, scene.fixed[static_cast<size_t>(owner - planes)].box, fixed.node);
+    claims.claim(fixed.node, fields == 0 ? claims.all_of(fixed.node) : fields, mask, owner);
+  }
+}
+
+/// The nodes on which a rigid particle has a weight of a hundredth or more along both axes. With less, those of the
+/// next row move as the body has them: else it would be a cell shorter as soon as a grip is pushed into it, however
+/// little. With a larger share left free, what a bar's stress loses at its ends where they move past grid lines would
+/// be more than a per cent. Of a node near cracks only the field on the particle's side moves with it.
+template <class Shape>
+void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, const GripBlock& grip,
+                const ConstraintOwner& owner) {
+  constexpr double least = 0.01;
+  AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
+  b.wall_lower = l.wall_lower[1];
+  b.wall_upper = l.wall_upper[1];
+  const unsigned mask = (owner.velocity[0] ? 1u : 0u) | (owner.velocity[1] ? 2u : 0u);
+  for (const Vec2 p : grip.points) {
+    const auto x = Shape::axis((p.x - l.origin.x) / l.h, a);
+    const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
+    for (int j = 0; j < Shape::width; ++j)
+      for (int i = 0; i < Shape::width; ++i) {
+        if (!(x.s[i] > least && y.s[j] > least))
+          continue;
+        const int node = (y.base + j) * l.nx + x.base + i;
+        claims.claim(node, sight.fields_of(p, node), mask, grip.owner);
+      }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void make_constraints(const Scene& scene, State<Real, 2>& s) {
+  Constraints& c = s.constraints;
+  const Lattice& l = s.grid.lattice;
+  c.at_node.resize(l.nodes());
+  const auto add_owner = [&](std::string name, const std::optional<TimeFunction>* velocity) -> int {
+    ConstraintOwner o;
+    o.name = std::move(name);
+    o.velocity[0] = velocity[0];
+    o.velocity[1] = velocity[1];
+    c.owners.push_back(std::move(o));
+    return static_cast<int>(c.owners.size()) - 1;
+  };
+  int planes[2] = {0, 0};  // so far, across each axis
+  const std::pair<int, int> all_x{0, l.nx - 1}, all_y{0, l.ny - 1};
+  for (const SymmetryPlane& plane : scene.symmetry) {
+    std::optional<TimeFunction> velocity[2];
+    velocity[plane.axis] = TimeFunction{};
+    std::string name = plane.axis == 0 ? "symmetry x" : "symmetry y";
+    if (planes[plane.axis]++ > 0)
+      name += " " + std::to_string(planes[plane.axis]);
+    const int owner = add_owner(std::move(name), velocity);
+    const auto at = node_range(l, plane.axis, plane.position, plane.position);
+    auto behind =
+        plane.solid > 0 ? std::pair{0, at.second} : std::pair{at.first, plane.axis == 0 ? l.nx - 1 : l.ny - 1};
+    claim_box(c.fixed, c.at_node, l, plane.axis == 0 ? behind : all_x, plane.axis == 0 ? all_y : behind,
+              c.owners.back(), owner);
+  }
+  for (const FixedNodes& f : scene.fixed) {
+    const int owner = add_owner(f.name, f.velocity);
+    claim_box(c.fixed, c.at_node, l, node_range(l, 0, f.box.lower.x, f.box.upper.x),
+              node_range(l, 1, f.box.lower.y, f.box.upper.y), c.owners.back(), owner);
+  }
+  for (const Constraint& k : c.fixed)
+    c.at_node[k.node] = 0;
+  for (const Grip& g : scene.grips) {
+    const int owner = add_owner(g.name, g.velocity);
+    c.grips.push_back({owner, lay_points(g.region, {}, l, g.particles_per_cell), 0.5 / g.particles_per_cell});
+  }
+}
+
+template <class Real>
+void list_constraints(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
+  Constraints& c = s.constraints;
+  for (ConstraintOwner& o : c.owners)
+    for (int axis = 0; axis < 2; ++axis)
+      if (o.velocity[axis]) {
+        o.now[axis] = (*o.velocity[axis])(s.clock.time);
+        o.next[axis] = (*o.velocity[axis])(s.clock.time + s.clock.dt);
+      }
+  c.now.resize(static_cast<long>(c.owners.size()));
+  c.next.resize(c.now.size());
+  for (long i = 0; i < c.now.size(); ++i) {
+    const ConstraintOwner& o = c.owners[static_cast<size_t>(i)];
+    c.now[i] = {o.now[0], o.now[1]};
+    c.next[i] = {o.next[0], o.next[1]};
+  }
+  const Lattice& l = s.grid.lattice;
+  const RigidSight sight(l, s.cracks, s.fields);
+  FieldClaims claims(FieldSlots(s.fields, l.nodes()), c.at_node);
+  for (const Constraint& k : c.fixed)
+    claim_fixed(claims, sight, l, scene, k);
+  with_shape(plan.shape, [&](auto shape) {
+    for (const GripBlock& g : c.grips)
+      claim_grip<typename decltype(shape)::type>(claims, sight, l, g, c.owners[static_cast<size_t>(g.owner)]);
+  });
+  c.list.resize(static_cast<long>(claims.list().size()));
+  std::copy(claims.list().begin(), claims.list().end(), c.list.begin());
+  c.impulse.resize(c.list.size());
+  for (exec::Array<Vec2>& change : c.change) {
+    change.resize(c.list.size());
+    change.zero();
+  }
+}
+
+#define RIVEN_LIST_CONSTRAINTS(Real)                             \
+  template void make_constraints(const Scene&, State<Real, 2>&); \
+  template void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
+RIVEN_EACH_REAL(RIVEN_LIST_CONSTRAINTS)
+#undef RIVEN_LIST_CONSTRAINTS
+
+}  // namespace riven

@@ -1,0 +1,16 @@
+// Fixed lines, symmetry planes and grips as a list of the velocity fields whose motion they prescribe.
+#pragma once
+#include "core/state/state.hpp"
+
+namespace riven {
+
+/// Turns the scene's fixed lines, symmetry planes and grips into lists of nodes and rigid particles.
+template <class Real>
+void make_constraints(const Scene&, State<Real, 2>&);
+
+/// Lists the fields of this step and evaluates the prescribed velocities at t and t + dt. Beside cracks what lies on
+/// one side of them holds the fields of that side. The fields of particles must be known.
+template <class Real>
+void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
+
+}  // namespace riven
