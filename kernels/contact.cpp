@@ -1,6 +1,7 @@
 #include "kernels/contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -25,12 +26,22 @@ struct Detection {
   const ThirdNormal* third_normals;
   const ContactArea* area;
   long flagged;
-  double reach;        ///< m, gap beyond which nothing touches (displacement)
-  double* pressed;     ///< CrackFields; null where none is kept
-  const Vec2* slopes;  ///< ContactSums; null where none pressed, and in the momentum update
+  double reach;                    ///< m, gap beyond which nothing touches (displacement)
+  double* pressed;                 ///< CrackFields; null where none is kept
+  const Vec2* slopes;              ///< ContactSums; null where none pressed, and in the momentum update
+  const std::uint8_t* prescribed;  ///< ContactSums; null where no motion is prescribed beside cracks
 
   /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.
   RIVEN_INLINE double last(int node) const { return slopes ? pressed[node] : 0; }
+  /// Is the motion of both fields prescribed along the normal? Then they meet as who prescribes it has it.
+  RIVEN_INLINE bool is_given(const long* slot, const Meeting& m) const {
+    if (!prescribed)
+      return false;
+    constexpr double along = 0.35;  // 20 degrees
+    const unsigned both = prescribed[slot[m.above]] & prescribed[slot[m.below]];
+    const double x = std::abs(m.normal.x), y = std::abs(m.normal.y);
+    return both == 3 || (both == 1 && y < along * x) || (both == 2 && x < along * y);
+  }
   /// How their fields move apart in a solid that goes on across the faces, m/s across and along them.
   RIVEN_INLINE Vec2 apart(long index, const long* slot, const double* mass, const Meeting& m) const {
     const Vec2 w = -distance_of(m, sums.place, slot, mass) * slopes[index];
@@ -90,7 +101,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return false;
   const Meeting m = meeting_across(n, {found.normals + index, nullptr}, laws, 0, 0, 1, 1);
-  if (m.law.law == ContactLaw::ignored)
+  if (m.law.law == ContactLaw::ignored || found.is_given(slot, m))
     return false;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const int a = m.above, b = m.below;
@@ -222,7 +233,7 @@ struct NodeContact {
       if (m.law.law == ContactLaw::bonded)
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
     for (const Meeting& m : meetings)
-      if (!node.together(m.above, m.below))
+      if (!node.together(m.above, m.below) && !found.is_given(slot, m))
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
   }
 
@@ -395,17 +406,19 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
       impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
   fields.pressed.resize(by_position ? grid.lattice.nodes() : 0);
-  const Detection<Real> found{.by = rules.detection,
-                              .v_sep = rules.v_sep,
-                              .v_contact = rules.v_contact,
-                              .sums = node_sums(of, grid.lattice, fields, sums),
-                              .normals = exec::data(fields.normals),
-                              .third_normals = exec::data(fields.third_normals),
-                              .area = exec::data(std::as_const(sums.area)),
-                              .flagged = fields.nodes.size(),
-                              .reach = 0.2 * grid.lattice.h,
-                              .pressed = by_position ? exec::data(fields.pressed) : nullptr,
-                              .slopes = nullptr};
+  const Detection<Real> found{
+      .by = rules.detection,
+      .v_sep = rules.v_sep,
+      .v_contact = rules.v_contact,
+      .sums = node_sums(of, grid.lattice, fields, sums),
+      .normals = exec::data(fields.normals),
+      .third_normals = exec::data(fields.third_normals),
+      .area = exec::data(std::as_const(sums.area)),
+      .flagged = fields.nodes.size(),
+      .reach = 0.2 * grid.lattice.h,
+      .pressed = by_position ? exec::data(fields.pressed) : nullptr,
+      .slopes = nullptr,
+      .prescribed = sums.prescribed.empty() ? nullptr : exec::data(std::as_const(sums.prescribed))};
   const auto act = [&](auto at, const char* label) {
     run<decltype(at)::value>(space, label, grid, fields, cracks, found, dt, sums, impulses, report);
   };

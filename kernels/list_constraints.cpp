@@ -87,20 +87,17 @@ void claim_box(std::vector<Constraint>& fixed, exec::Array<int>& at_node, const 
           claim_node(fixed, at_node, j * l.nx + i, axis, number);
 }
 
-/// The fields of a node that a box of fixed nodes holds: those on the sides of cracks on which it lies within reach of
-/// a particle. A line has both sides.
+/// The fields of a node that a box of fixed nodes holds: those on the sides of cracks on which it lies, within reach of
+/// a particle and not all but on a crack; none for a line along a crack, or a point on it.
 unsigned fields_in_box(const RigidSight& sight, const Lattice& l, const Rectangle& box, int node) {
-  const double reach = 1.2 * l.h, thin = 1e-3 * l.h;
+  const double reach = 1.2 * l.h, near = 0.3 * l.h;
   const Vec2 x = l.position(node);
-  const auto clamped = [&](double at, double step, double lower, double upper) {
-    const double widen = upper - lower < thin ? thin : 0;
-    return std::clamp(at + step, std::min(at, lower - widen), std::max(at, upper + widen));
-  };
   unsigned fields = 0;
   for (const Vec2 step : {Vec2{reach, 0}, Vec2{-reach, 0}, Vec2{0, reach}, Vec2{0, -reach}}) {
-    const Vec2 p{clamped(x.x, step.x, box.lower.x, box.upper.x), clamped(x.y, step.y, box.lower.y, box.upper.y)};
-    if (norm(p - x) >= 0.5 * thin)
-      fields |= sight.fields_of(p, node);
+    const Vec2 p{std::clamp(x.x + step.x, std::min(x.x, box.lower.x), std::max(x.x, box.upper.x)),
+                 std::clamp(x.y + step.y, std::min(x.y, box.lower.y), std::max(x.y, box.upper.y))};
+    if (sight.distance_to_cracks(p, node) > near)
+      fields |= sight.fields_of(p, p, node);
   }
   return fields;
 }
@@ -141,7 +138,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
         if (!(x.s[i] > least && y.s[j] > least))
           continue;
         const int node = (y.base + j) * l.nx + x.base + i;
-        claims.claim(node, sight.fields_of(p, node), mask, grip.owner);
+        claims.claim(node, sight.fields_of(p, p - owner.travel, node), mask, grip.owner);
       }
   }
 }
@@ -221,6 +218,18 @@ void list_constraints(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     change.resize(c.list.size());
     change.zero();
   }
+}
+
+void mark_prescribed(const Constraints& constraints, const CrackFields& fields, long slots,
+                     exec::Array<std::uint8_t>& prescribed) {
+  const auto parted = [&](const Constraint& c) { return c.mask != 0 && fields.node_index[c.node] >= 0; };
+  const exec::Array<Constraint>& list = constraints.list;
+  const bool any = !fields.nodes.empty() && std::any_of(list.begin(), list.end(), parted);
+  prescribed.resize(any ? slots : 0);
+  prescribed.zero();
+  for (long n = 0; any && n < list.size(); ++n)
+    if (parted(list[n]))
+      prescribed[list[n].slot] = list[n].mask;
 }
 
 #define RIVEN_LIST_CONSTRAINTS(Real)                             \

@@ -13,4 +13,7 @@ void make_constraints(const Scene&, State<Real, 2>&);
 template <class Real>
 void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
 
+/// Marks the components of the fields beside cracks whose motion is prescribed, as ContactSums::prescribed has them.
+void mark_prescribed(const Constraints&, const CrackFields&, long slots, exec::Array<std::uint8_t>& prescribed);
+
 }  // namespace riven

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "core/fracture/beyond_end.hpp"
 #include "core/fracture/crossing.hpp"
@@ -12,7 +13,9 @@ namespace riven {
 
 inline namespace RIVEN_SIDE {
 
-/// Sees nodes as a particle of the body in its place would (trace_crossings.hpp), but adds nothing to what they hold.
+/// A rigid particle that lies beside a crack stays on the side where it was at first: the crack moves with the body, by
+/// little, and a particle next to it would come to lie on its other side. Others see nodes as a particle of the body in
+/// their place would (trace_crossings.hpp).
 class RigidSight {
  public:
   /// Fields must have been determined in this step.
@@ -22,17 +25,20 @@ class RigidSight {
         tally_(exec::data(fields.tally)),
         verdict_(exec::data(fields.verdict)),
         traced_(exec::data(fields.traced)),
+        plane0_(exec::data(cracks.plane0)),
         start_(exec::data(cracks.start)),
         laws_(exec::data(cracks.contact)) {}
 
   bool sees_cracks(int node) const { return any_ && lists_.node_index[node] >= 0; }
 
-  /// A bit for each field of the node that moves with a rigid particle at x: none where no body on its side of a crack
-  /// reaches the node, and those on both sides of a crack that is bonded.
-  unsigned fields_of(Vec2 x, int node) const {
-    const int f = any_ ? lists_.node_index[node] : -1;
+  /// A bit for each field of the node that moves with a rigid particle at x, which was at x0 at first: none where no
+  /// body on its side of a crack reaches the node, and those on both sides of a crack that is bonded.
+  unsigned fields_of(Vec2 x, Vec2 x0, int node) const {
+    if (!sees_cracks(node))
+      return 1;
+    const int f = lists_.node_index[node];
     unsigned fields = 1;
-    for (int c = f < 0 ? 0 : lists_.candidate_start[f]; f >= 0 && c < lists_.candidate_start[f + 1]; ++c) {
+    for (int c = lists_.candidate_start[f]; c < lists_.candidate_start[f + 1]; ++c) {
       const std::uint8_t above = verdict_[2 * c], below = verdict_[2 * c + 1];
       const bool held = tally_[2 * c] + tally_[2 * c + 1] > 0;
       if (laws_[lists_.candidate[c]].law == ContactLaw::bonded) {
@@ -40,7 +46,13 @@ class RigidSight {
           fields |= fields << field;
         continue;
       }
-      const Side side = crossed(x, lists_.lattice.position(node), c, held);
+      const Vec2 at = lists_.lattice.position(node);
+      const Nearest at_first = nearest(plane0_, x0, c), to_node = nearest(traced_, at, c);
+      Side side = Side::none;
+      if (!(at_first.distance < beside * lists_.lattice.h) || (!held && to_node.beyond))
+        side = crossed(x, at, c, held);
+      else if (held || (at_first.turn >= 0) != (to_node.turn > 0))  // what lies on a crack: crossing.hpp
+        side = at_first.turn >= 0 ? Side::above : Side::below;
       if (side == Side::none)
         continue;
       if (!held)
@@ -51,7 +63,38 @@ class RigidSight {
     return fields;
   }
 
+  /// From x to the cracks that the node, which sees some, may see, m.
+  double distance_to_cracks(Vec2 x, int node) const {
+    const int f = lists_.node_index[node];
+    double least = std::numeric_limits<double>::infinity();
+    for (int c = lists_.candidate_start[f]; c < lists_.candidate_start[f + 1]; ++c)
+      least = std::min(least, nearest(traced_, x, c).distance);
+    return least;
+  }
+
  private:
+  static constexpr double beside = 1.5;  ///< cells
+
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  ///< m
+    int turn = 0;                                               ///< > 0 above the line through the segment, < 0 below
+    bool beyond = false;                                        ///< it is an end of the crack that is nearest
+  };
+
+  /// Of the segments that a node may see of its candidate c, the one nearest to x.
+  Nearest nearest(const Vec2* point, Vec2 x, int c) const {
+    const int crack = lists_.candidate[c], first = start_[crack], last = start_[crack + 1] - 1;
+    Nearest least;
+    for (int at = lists_.segment_start[c]; at < lists_.segment_start[c + 1]; ++at) {
+      const int k = lists_.node_segment[at];
+      const Vec2 a = point[k], b = point[k + 1], d = b - a;
+      const double length2 = dot(d, d), t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0., 1.) : 0;
+      if (const double distance = norm(x - a - t * d); distance < least.distance)
+        least = {distance, orientation(a, b, x), (k == first && t == 0) || (k + 1 == last && t == 1)};
+    }
+    return least;
+  }
+
   /// The side from which the path from x to n, a node, crosses its candidate c. Where the node holds that crack, it
   /// goes on beyond its ends: grips reach farther out of a body than the mouths of its cracks are drawn.
   Side crossed(Vec2 x, Vec2 n, int c, bool held) const {
@@ -74,7 +117,7 @@ class RigidSight {
   bool any_;
   const int* tally_;
   const std::uint8_t* verdict_;
-  const Vec2* traced_;
+  const Vec2 *traced_, *plane0_;
   const int* start_;
   const ContactSettings* laws_;
 };

@@ -119,6 +119,8 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add_contact(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact<Real>);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
     list_constraints(m.scene, m.plan, m.state);
+    if (m.plan.contact)
+      mark_prescribed(m.state.constraints, m.state.fields, m.state.grid.slots(), m.contact_sums.prescribed);
     prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
   add_contact(true, "contact before", "contact", contact_before_update<Real>);
