@@ -97,7 +97,7 @@ unsigned fields_in_box(const RigidSight& sight, const Lattice& l, const Rectangl
     const Vec2 p{std::clamp(x.x + step.x, std::min(x.x, box.lower.x), std::max(x.x, box.upper.x)),
                  std::clamp(x.y + step.y, std::min(x.y, box.lower.y), std::max(x.y, box.upper.y))};
     if (sight.distance_to_cracks(p, node) > near)
-      fields |= sight.fields_of(p, p, node);
+      fields |= sight.fields_of(p, nullptr, node);
   }
   return fields;
 }
@@ -131,6 +131,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
   b.wall_upper = l.wall_upper[1];
   const unsigned mask = (owner.velocity[0] ? 1u : 0u) | (owner.velocity[1] ? 2u : 0u);
   for (const Vec2 p : grip.points) {
+    const Vec2 first = p - owner.travel;
     const auto x = Shape::axis((p.x - l.origin.x) / l.h, a);
     const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
     for (int j = 0; j < Shape::width; ++j)
@@ -138,7 +139,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
         if (!(x.s[i] > least && y.s[j] > least))
           continue;
         const int node = (y.base + j) * l.nx + x.base + i;
-        claims.claim(node, sight.fields_of(p, p - owner.travel, node), mask, grip.owner);
+        claims.claim(node, sight.fields_of(p, &first, node), mask, grip.owner);
       }
   }
 }

@@ -13,9 +13,8 @@ namespace riven {
 
 inline namespace RIVEN_SIDE {
 
-/// A rigid particle that lies beside a crack stays on the side where it was at first: the crack moves with the body, by
-/// little, and a particle next to it would come to lie on its other side. Others see nodes as a particle of the body in
-/// their place would (trace_crossings.hpp).
+/// Sees nodes as a particle of the body in the same place would (trace_crossings.hpp), but for one next to a crack,
+/// which the body moves past it by little: it stays on the side where it was at first.
 class RigidSight {
  public:
   /// Fields must have been determined in this step.
@@ -31,9 +30,10 @@ class RigidSight {
 
   bool sees_cracks(int node) const { return any_ && lists_.node_index[node] >= 0; }
 
-  /// A bit for each field of the node that moves with a rigid particle at x, which was at x0 at first: none where no
-  /// body on its side of a crack reaches the node, and those on both sides of a crack that is bonded.
-  unsigned fields_of(Vec2 x, Vec2 x0, int node) const {
+  /// A bit for each field of the node that moves with a rigid particle at x: none where no body on its side of a crack
+  /// reaches the node, and those on both sides of a crack that is bonded. `x0`: where the particle was at first; null
+  /// for a place that is no particle's.
+  unsigned fields_of(Vec2 x, const Vec2* x0, int node) const {
     if (!sees_cracks(node))
       return 1;
     const int f = lists_.node_index[node];
@@ -47,9 +47,11 @@ class RigidSight {
         continue;
       }
       const Vec2 at = lists_.lattice.position(node);
-      const Nearest at_first = nearest(plane0_, x0, c), to_node = nearest(traced_, at, c);
+      const Nearest to_node = nearest(traced_, at, c), at_first = x0 ? nearest(plane0_, *x0, c) : Nearest{};
+      const bool stays = at_first.distance < beside * lists_.lattice.h &&
+                         nearest(traced_, x, c).distance < next_to * lists_.lattice.h && (held || !to_node.beyond);
       Side side = Side::none;
-      if (!(at_first.distance < beside * lists_.lattice.h) || (!held && to_node.beyond))
+      if (!stays)
         side = crossed(x, at, c, held);
       else if (held || (at_first.turn >= 0) != (to_node.turn > 0))  // what lies on a crack: crossing.hpp
         side = at_first.turn >= 0 ? Side::above : Side::below;
@@ -73,7 +75,7 @@ class RigidSight {
   }
 
  private:
-  static constexpr double beside = 1.5;  ///< cells
+  static constexpr double beside = 1.5, next_to = 0.5;  ///< cells, at first and now
 
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();  ///< m
