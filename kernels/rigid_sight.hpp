@@ -11,8 +11,6 @@
 
 namespace riven {
 
-inline namespace RIVEN_SIDE {
-
 /// Sees nodes as a particle of the body in the same place would (trace_crossings.hpp), but for one next to a crack,
 /// which the body moves past it by little: it stays on the side where it was at first.
 class RigidSight {
@@ -123,7 +121,5 @@ class RigidSight {
   const int* start_;
   const ContactSettings* laws_;
 };
-
-}  // namespace RIVEN_SIDE
 
 }  // namespace riven

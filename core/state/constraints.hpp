@@ -68,7 +68,7 @@ struct GripBlock {
 
 struct Constraints {
   std::vector<ConstraintOwner> owners;
-  std::vector<Constraint> fixed;  ///< nodes known from the start, with all of their fields
+  std::vector<Constraint> fixed;  ///< nodes known from the start; their fields are found in each step
   std::vector<GripBlock> grips;
   exec::Array<Constraint> list;  ///< of this step, by fields; those of a node stand together
   exec::Array<Vec2> now, next;   ///< [owners] velocities at the start and the end of this step, m/s
