@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/dispatch.hpp"
-#include "kernels/stress_update.hpp"
+#include "kernels/stress_rule.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/watch.hpp"
 
@@ -122,8 +122,12 @@ StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
   return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping), velocities_compared(s.clock.step)};
 }
 
-template <class Shape, class Law, bool High, bool Stress, class Real>
-void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) {
+struct NoUpdate {};
+
+/// `update` of the stresses, if there is one in this pass.
+template <class Shape, bool High, class Real, class Update>
+void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule, const Update& update) {
+  constexpr bool Stress = !std::is_same_v<Update, NoUpdate>;
   constexpr int L = exec::lanes;
   const Grid<Real>& g = s.grid;
   const Real *q = exec::data(g.q), *high = exec::data(g.high);
@@ -131,7 +135,6 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s);
-  const BodyLookup<Law> law = laws<Law>(s);
   const StepNumbers<Real> n = numbers(s, rule);
   const bool high_gradient = rule.high_gradient, together = in_cells(s);
   const WatchTiles<Real, true, true, Stress> see(s.watch, rule.keep != 1, n.compare);
@@ -143,8 +146,8 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                              {p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr},
                              {q, High ? high : nullptr}}};
   each_tile(space, "grid to particle", tiles, see,
-            [p, at, q, high, nx, law, n, high_gradient, together] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                               TileWatch<Real>& seen) RIVEN_LANE {
+            [p, at, q, high, nx, update, n, high_gradient, together] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                                  TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               GatheredMotion<Real> motion;
               GradientLanes<Real> gradient;
@@ -163,7 +166,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule) 
                   p.y[first + k] += dy[k];
                 });
                 if constexpr (Stress)
-                  update_stress_lanes<false>(p, first, count, gradient, n.dt, law, seen);
+                  update(first, count, gradient, n.dt, seen);
               }
             });
   watch_moves(s);
@@ -239,11 +242,10 @@ void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>
     with_flag(rule.high, [&](auto high) {
       using Shape = typename decltype(shape)::type;
       if (with_stress)
-        with_law<Real>(plan.law, [&](auto law) {
-          run<Shape, typename decltype(law)::type, decltype(high)::value, true>(space, s, rule);
-        });
+        with_stress_rule<false>(plan.law, s,
+                                [&](const auto& update) { run<Shape, decltype(high)::value>(space, s, rule, update); });
       else
-        run<Shape, LinearElastic<Real>, decltype(high)::value, false>(space, s, rule);
+        run<Shape, decltype(high)::value>(space, s, rule, NoUpdate{});
     });
   });
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/dispatch.hpp"
-#include "kernels/stress_update.hpp"
+#include "kernels/stress_rule.hpp"
 #include "kernels/tiles.hpp"
 #include "kernels/watch.hpp"
 
@@ -34,15 +34,14 @@ struct StressLanes {
   }
 };
 
-template <class Shape, class Law, bool Averaged, class Real>
-void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
+template <class Shape, bool Averaged, class Real, class Rule>
+void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity, const Rule& update) {
   constexpr int L = exec::lanes;
   Real* q = exec::data(s.grid.q);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
-  const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, false, false, true> see(s.watch);
   const Real bx = Real(gravity.x), by = Real(gravity.y), step = Real(s.clock.dt);
   const bool together = in_cells(s);
@@ -52,7 +51,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
                             {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.mass, p.sxx, p.syy, p.sxy}, {q}}};
   scatter_tiles<false>(
       space, "stress before, forces", plan.scatter, tiles, static_cast<Real*>(nullptr), q, see,
-      [p, at, extra, law, q, nx, bx, by, step, together] RIVEN_KERNEL(
+      [p, at, extra, update, q, nx, bx, by, step, together] RIVEN_KERNEL(
           auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GradientLanes<Real> gradient;
@@ -64,7 +63,7 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
           each_gathered<true>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
             gradient.set(k, gather_from<true, 0>(w, k, q, nx, slots));
           });
-          update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+          update(first, count, gradient, step, seen);
           stress.template take<Averaged>(p, first, count, gradient, step);
           each_four(
               stretch, w, first, count, together,
@@ -88,15 +87,14 @@ void run_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, V
   watch_J(s);
 }
 
-template <class Shape, class Law, bool Averaged, class Real>
-void run_move(const exec::Space& space, State<Real, 2>& s) {
+template <class Shape, class Real, class Rule>
+void run_move(const exec::Space& space, State<Real, 2>& s, const Rule& update) {
   constexpr int L = exec::lanes;
   const Real* again = exec::data(s.grid.again);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s);
-  const BodyLookup<Law> law = laws<Law>(s);
   const WatchTiles<Real, true, false, true> see(s.watch);
   const Real step = Real(s.clock.dt);
   const bool together = in_cells(s);
@@ -105,8 +103,8 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
                             extra,
                             {{p.x, p.y, p.Fxx, p.Fxy, p.Fyx, p.Fyy}, {p.sxx, p.syy, p.sxy}, {again}}};
   each_tile(space, "stress after, move", tiles, see,
-            [p, at, law, again, nx, step, together] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                 TileWatch<Real>& seen) RIVEN_LANE {
+            [p, at, update, again, nx, step, together] RIVEN_KERNEL(auto stretch, long begin, long end,
+                                                                    TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               GradientLanes<Real> gradient;
               alignas(64) Real wx[L], wy[L];
@@ -120,7 +118,7 @@ void run_move(const exec::Space& space, State<Real, 2>& s) {
                   put<Real>(wx + k, g.value[2]);
                   put<Real>(wy + k, g.value[3]);
                 });
-                update_stress_lanes<Averaged>(p, first, count, gradient, step, law, seen);
+                update(first, count, gradient, step, seen);
                 exec::for_lanes(count, [&](int k) RIVEN_LANE {
                   const Real dx = step * wx[k], dy = step * wy[k];
                   p.x[first + k] += dx;
@@ -139,9 +137,9 @@ template <class Real>
 void update_stress_and_forces(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gravity) {
   with_shape(plan.shape, [&](auto shape) {
     with_flag(plan.averaged(), [&](auto averaged) {
-      with_law<Real>(plan.law, [&](auto law) {
-        run_forces<typename decltype(shape)::type, typename decltype(law)::type, decltype(averaged)::value>(space, plan,
-                                                                                                            s, gravity);
+      using Shape = typename decltype(shape)::type;
+      with_stress_rule<decltype(averaged)::value>(plan.law, s, [&](const auto& update) {
+        run_forces<Shape, decltype(averaged)::value>(space, plan, s, gravity, update);
       });
     });
   });
@@ -151,9 +149,9 @@ template <class Real>
 void update_stress_and_move(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
   with_shape(plan.shape, [&](auto shape) {
     with_flag(plan.averaged(), [&](auto averaged) {
-      with_law<Real>(plan.law, [&](auto law) {
-        run_move<typename decltype(shape)::type, typename decltype(law)::type, decltype(averaged)::value>(space, s);
-      });
+      using Shape = typename decltype(shape)::type;
+      with_stress_rule<decltype(averaged)::value>(plan.law, s,
+                                                  [&](const auto& update) { run_move<Shape>(space, s, update); });
     });
   });
 }

@@ -4,17 +4,12 @@
 #if defined(RIVEN_ON_DEVICE)
 #include "core/exec/parallel_on_device.hpp"
 #else
-#include <omp.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cstring>
-#include <execution>
 #include <vector>
 
 #include "core/exec/array.hpp"
 #include "core/exec/config.hpp"
-#include "core/exec/counting.hpp"
 #include "core/exec/space.hpp"
 
 namespace riven::exec {
@@ -24,55 +19,15 @@ inline namespace RIVEN_SIDE {
 /// Every space calls the same machine code: inlined into each space's loop, a sum of products may be fused to
 /// multiply-adds in one and not in another, and the last bits differ.
 template <class F>
-RIVEN_ONCE void run_task(const F& f, long i) {
-  const F task = f;  // a copy of its own: what a kernel writes cannot change what it captured
+RIVEN_ONCE void run_task(const void* f, long i) {
+  const F task = *static_cast<const F*>(f);  // a copy of its own: what a kernel writes cannot change what it captured
   task(i);
 }
-
-namespace detail {
-
-/// A range of tasks that begins with one thread, and that others help with when they are done with their own.
-struct alignas(64) Share {
-  std::atomic<long> next;
-  long end;
-};
-
-/// Thread t begins with the t-th part of [0, n): in all launches of a step with the same part of the grid and of the
-/// particles, whose lines stay in its cache.
-template <class F>
-void launch_openmp(int threads, long n, const F& f) {
-  std::vector<Share> shares(static_cast<size_t>(threads));
-  for (int t = 0; t < threads; ++t) {
-    shares[static_cast<size_t>(t)].next = n * t / threads;
-    shares[static_cast<size_t>(t)].end = n * (t + 1) / threads;
-  }
-#pragma omp parallel num_threads(threads)
-  for (int k = 0, own = omp_get_thread_num(); k < threads; ++k) {
-    Share& share = shares[static_cast<size_t>((own + k) % threads)];
-    for (long i; (i = share.next.fetch_add(1, std::memory_order_relaxed)) < share.end;)
-      run_task(f, i);
-  }
-}
-
-}  // namespace detail
 
 /// f(i) for i in [0, n), untimed: for the parts of a launch that is timed as a whole.
 template <class F>
 void launch(const Space& space, long n, const F& f) {
-  // waking threads for a single task costs more than the task
-  switch (n <= 1 ? Kind::serial : space.kind()) {
-    case Kind::serial:
-      for (long i = 0; i < n; ++i)
-        run_task(f, i);
-      break;
-    case Kind::openmp:
-    case Kind::cuda: detail::launch_openmp(space.threads(), n, f); break;
-    case Kind::stdpar:
-      // par, not par_unseq: kernels may use atomics
-      space.arena().execute(
-          [&] { std::for_each(std::execution::par, Counting{0}, Counting{n}, [&](long i) { run_task(f, i); }); });
-      break;
-  }
+  space.run(n, run_task<F>, &f);
 }
 
 /// Items that one task takes when a range of small items is cut into chunks. Fixed, so that sums over

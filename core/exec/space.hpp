@@ -1,7 +1,5 @@
 // Execution spaces: where a kernel runs. Chosen at run time, one program holds them all.
 #pragma once
-#include <tbb/task_arena.h>
-
 #include <memory>
 #include <string>
 
@@ -19,18 +17,22 @@ class Space {
   explicit Space(Kind kind = Kind::serial, int threads = 1);
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
+  ~Space();
 
   Kind kind() const { return kind_; }
   int threads() const { return threads_; }
   bool on_device() const { return kind_ == Kind::cuda; }
   Timers& timers() const { return timers_; }
-  /// TBB's threads of this space; only with StdPar.
-  tbb::task_arena& arena() const { return *arena_; }
+  /// task(of, i) for i in [0, n) on the threads of this space. By a pointer: how threads share a range out is compiled
+  /// once, not for every kernel.
+  void run(long n, void (*task)(const void* of, long i), const void* of) const;
 
  private:
+  struct Arena;
+
   Kind kind_;
   int threads_;
-  std::unique_ptr<tbb::task_arena> arena_;
+  std::unique_ptr<Arena> arena_;  ///< TBB's threads; only with StdPar
   mutable Timers timers_;
 };
 
