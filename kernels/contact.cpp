@@ -9,6 +9,7 @@
 #include "core/laws/contact_node.hpp"
 #include "kernels/contact_meetings.hpp"
 #include "kernels/field_motion.hpp"
+#include "kernels/prescribed_fields.hpp"
 #include "kernels/pressed_faces.hpp"
 
 namespace riven {
@@ -26,22 +27,13 @@ struct Detection {
   const ThirdNormal* third_normals;
   const ContactArea* area;
   long flagged;
-  double reach;                    ///< m, gap beyond which nothing touches (displacement)
-  double* pressed;                 ///< CrackFields; null where none is kept
-  const Vec2* slopes;              ///< ContactSums; null where none pressed, and in the momentum update
-  const std::uint8_t* prescribed;  ///< ContactSums; null where no motion is prescribed beside cracks
+  double reach;        ///< m, gap beyond which nothing touches (displacement)
+  double* pressed;     ///< CrackFields; null where none is kept
+  const Vec2* slopes;  ///< ContactSums; null where none pressed, and in the momentum update
+  PrescribedFields prescribed;
 
   /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.
   RIVEN_INLINE double last(int node) const { return slopes ? pressed[node] : 0; }
-  /// Is the motion of both fields prescribed along the normal? Then they meet as who prescribes it has it.
-  RIVEN_INLINE bool is_given(const long* slot, const Meeting& m) const {
-    if (!prescribed)
-      return false;
-    constexpr double along = 0.35;  // 20 degrees
-    const unsigned both = prescribed[slot[m.above]] & prescribed[slot[m.below]];
-    const double x = std::abs(m.normal.x), y = std::abs(m.normal.y);
-    return both == 3 || (both == 1 && y < along * x) || (both == 2 && x < along * y);
-  }
   /// How their fields move apart in a solid that goes on across the faces, m/s across and along them.
   RIVEN_INLINE Vec2 apart(long index, const long* slot, const double* mass, const Meeting& m) const {
     const Vec2 w = -distance_of(m, sums.place, slot, mass) * slopes[index];
@@ -101,7 +93,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return false;
   const Meeting m = meeting_across(n, {found.normals + index, nullptr}, laws, 0, 0, 1, 1);
-  if (m.law.law == ContactLaw::ignored || found.is_given(slot, m))
+  if (m.law.law == ContactLaw::ignored || found.prescribed.both_given(slot, m))
     return false;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const int a = m.above, b = m.below;
@@ -113,7 +105,10 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   }
   const double inverse[2] = {1 / mass[0], 1 / mass[1]};
   const Vec2 t = turned(m.normal), u = inverse[a] * momentum[a] - inverse[b] * momentum[b];
-  const double un = dot(u, m.normal), reduced = mass[0] * mass[1] / (mass[0] + mass[1]);
+  const bool prescribed = (found.prescribed.of(slot[0]) | found.prescribed.of(slot[1])) != 0;
+  const double un = dot(u, m.normal), of_both = mass[0] * mass[1] / (mass[0] + mass[1]);
+  const Vec2 yielding = prescribed ? found.prescribed.yielding(slot, mass) : Vec2{};
+  const Vec2 reduced = prescribed ? reduced_masses(yielding, m.normal) : Vec2{of_both, of_both};
   found.sums.ask(index, n);
   const double* area = found.sums.volume;
   const double volume = area ? relative_volume(lattice, n.node, area[slot[0]] + area[slot[1]]) : 1;
@@ -122,15 +117,21 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   Vec2 velocity[2], impulse[2];
   bool touches = false;
   double now = 0;
-  if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced * un > tiny)) {
+  if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced.x * un > tiny)) {
     touches = true;
-    now = v.touch == Touch::sticks ? reduced * un : 0;
+    now = v.touch == Touch::sticks ? reduced.x * un : 0;
     velocity[0] = velocity[1] = (momentum[0] + momentum[1]) * (1 / (mass[0] + mass[1]));
     for (int f = 0; f < 2; ++f)
       impulse[f] = mass[f] * (velocity[f] - momentum[f] * inverse[f]);
+    if (prescribed) {
+      impulse[b] = {inverse_or_none(yielding.x) * u.x, inverse_or_none(yielding.y) * u.y};
+      impulse[a] = -impulse[b];
+      for (int f = 0; f < 2; ++f)
+        velocity[f] = (momentum[f] + impulse[f]) * inverse[f];
+    }
   } else if (v.touch == Touch::pushes || (v.touch == Touch::sticks && last > 0)) {
     const Vec2 across{un, dot(u, t)};
-    PairImpulse r = v.touch == Touch::pushes ? pair_impulse(v.pair, reduced, across.x, across.y) : PairImpulse{0, 0};
+    PairImpulse r = v.touch == Touch::pushes ? pair_impulse(v.pair, reduced, across) : PairImpulse{0, 0};
     if (last > 0)
       r = hold(r, last, v.touch == Touch::sticks, reduced, across, found.apart(index, slot, mass, m));
     now = r.lambda;
@@ -152,10 +153,8 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     report.gap = std::max(report.gap, v.gap);
     report.early += volume < found.v_sep;
   }
-  for (int f = 0; f < 2; ++f) {
-    motion.change(slot[f], impulse[f], velocity[f], dt);
-    notes.add(stage, index, n, slot[f], impulse[f]);
-  }
+  for (int f = 0; f < 2; ++f)
+    found.prescribed.give(motion, notes, index, n, slot[f], impulse[f], velocity[f], dt);
   return acts(impulse[0], momenta);
 }
 
@@ -233,8 +232,19 @@ struct NodeContact {
       if (m.law.law == ContactLaw::bonded)
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
     for (const Meeting& m : meetings)
-      if (!node.together(m.above, m.below) && !found.is_given(slot, m))
+      if (!node.together(m.above, m.below) && !found.prescribed.both_given(slot, m))
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
+  }
+
+  /// Fields whose motion is prescribed do not give way. One that is prescribed in one component alone does, half-way:
+  /// what it resists is not given to it.
+  RIVEN_INLINE void hold_prescribed() {
+    constexpr double heavy = 1e6;  // tolerances of the solution go by the sum of m |v|
+    for (int f = 0; f < Node::fields; ++f)
+      if (node.mass[f] > 0 && found.prescribed.of(slot[f]) == 3) {
+        node.mass[f] *= heavy;
+        node.momentum[f] *= heavy;
+      }
   }
 
   /// Velocity of a group of fields before the step's forces.
@@ -300,20 +310,20 @@ struct NodeContact {
       volume = relative_volume(lattice, n.node, volume);
     }
     detect(meetings, volume);
+    double momenta = 0;
+    for (int f = 0; f < Node::fields; ++f)
+      momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
+    hold_prescribed();
     for (int k = 0; k < node.pairs; ++k)
       if (pair[k].law.law == ContactLaw::interface)
         respond(node.pair[k], pair[k], found.area[entry_of(n, index, pair[k].k, found.flagged)]);
     const Outcome out = solve(node);
     tally(out, volume);
-    double momenta = 0;
-    for (int f = 0; f < Node::fields; ++f)
-      momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
     bool acting = false;
     for (int f = 0; f < Node::fields; ++f) {
       if (!out.changed[f])
         continue;
-      motion.change(slot[f], out.impulse[f], out.velocity[f], dt);
-      notes.add(stage, index, n, slot[f], out.impulse[f]);
+      found.prescribed.give(motion, notes, index, n, slot[f], out.impulse[f], out.velocity[f], dt);
       acting = acting || acts(out.impulse[f], momenta);
     }
     return acting;
@@ -418,7 +428,8 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
       .reach = 0.2 * grid.lattice.h,
       .pressed = by_position ? exec::data(fields.pressed) : nullptr,
       .slopes = nullptr,
-      .prescribed = sums.prescribed.empty() ? nullptr : exec::data(std::as_const(sums.prescribed))};
+      .prescribed = {sums.prescribed.empty() ? nullptr : exec::data(std::as_const(sums.prescribed)),
+                     sums.prescribed.empty() ? nullptr : exec::data(sums.resisted), sums.early_impulse}};
   const auto act = [&](auto at, const char* label) {
     run<decltype(at)::value>(space, label, grid, fields, cracks, found, dt, sums, impulses, report);
   };

@@ -37,9 +37,12 @@ struct ContactSums {
   exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update, by more
                                       ///< than rounding; empty: not asked for
   bool keep_touched = false;          ///< asks for it
-  exec::Array<std::uint8_t>
-      prescribed;            ///< [slots] bit 0: x, bit 1: y of a field's motion is prescribed; empty: nowhere
-  exec::Array<Vec2> slopes;  ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
+  exec::Array<std::uint8_t> prescribed;  ///< [slots] bit 0: x, bit 1: y of a field's motion is prescribed; empty:
+                                         ///< nowhere beside cracks
+  exec::Array<Vec2> resisted;            ///< [slots] N s, what such fields resisted in this step of what contact gave
+                                         ///< them, for the other fields' particles to feel
+  double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
+  exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
 };
 
 /// Where crack k of n = CrackFields::nodes[i] stands in ContactSums::area.

@@ -221,16 +221,19 @@ void list_constraints(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   }
 }
 
-void mark_prescribed(const Constraints& constraints, const CrackFields& fields, long slots,
-                     exec::Array<std::uint8_t>& prescribed) {
+void mark_prescribed(const Constraints& constraints, const CrackFields& fields, long slots, double early_impulse,
+                     ContactSums& sums) {
+  sums.early_impulse = early_impulse;
   const auto parted = [&](const Constraint& c) { return c.mask != 0 && fields.node_index[c.node] >= 0; };
   const exec::Array<Constraint>& list = constraints.list;
   const bool any = !fields.nodes.empty() && std::any_of(list.begin(), list.end(), parted);
-  prescribed.resize(any ? slots : 0);
-  prescribed.zero();
+  sums.prescribed.resize(any ? slots : 0);
+  sums.prescribed.zero();
+  sums.resisted.resize(any ? slots : 0);
+  sums.resisted.zero();
   for (long n = 0; any && n < list.size(); ++n)
     if (parted(list[n]))
-      prescribed[list[n].slot] = list[n].mask;
+      sums.prescribed[list[n].slot] = list[n].mask;
 }
 
 #define RIVEN_LIST_CONSTRAINTS(Real)                             \

@@ -1,6 +1,7 @@
 // Fixed lines, symmetry planes and grips as a list of the velocity fields whose motion they prescribe.
 #pragma once
 #include "core/state/state.hpp"
+#include "kernels/contact_sums.hpp"
 
 namespace riven {
 
@@ -13,7 +14,8 @@ void make_constraints(const Scene&, State<Real, 2>&);
 template <class Real>
 void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
 
-/// Marks the components of the fields beside cracks whose motion is prescribed, as ContactSums::prescribed has them.
-void mark_prescribed(const Constraints&, const CrackFields&, long slots, exec::Array<std::uint8_t>& prescribed);
+/// Marks the components of the fields beside cracks whose motion is prescribed, and clears what they resist.
+/// `early_impulse` as ContactSums has it.
+void mark_prescribed(const Constraints&, const CrackFields&, long slots, double early_impulse, ContactSums&);
 
 }  // namespace riven

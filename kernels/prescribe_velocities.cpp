@@ -72,6 +72,17 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
   book_impulses(s.grid.lattice, std::as_const(c.list), std::as_const(c.impulse), c.owners);
 }
 
+void take_resisted(const exec::Array<Vec2>& resisted, const Lattice& lattice, Constraints& c) {
+  const exec::Array<Constraint>& list = c.list;
+  exec::Array<Vec2>& in_update = c.change[static_cast<int>(Stage::after)];
+  for (long n = 0; n < list.size(); ++n) {
+    const Vec2 r = resisted[list[n].slot];
+    c.impulse[n] = {list[n].mask & 1u ? r.x : 0, list[n].mask & 2u ? r.y : 0};
+    in_update[n] += c.impulse[n];
+  }
+  book_impulses(lattice, list, std::as_const(c.impulse), c.owners);
+}
+
 namespace {
 /// What a component of a field of a node gains by prescribed motion, as field_impulses.hpp has it for contact.
 struct Gain {

@@ -98,14 +98,14 @@ RIVEN_INLINE double along_with(double u, double w) {
   return std::clamp(u, std::min(0., w), std::max(0., w));
 }
 
-/// The impulse of a pair that pressed by `pressed` (N s) in the last update, from its own law's; u and w: components
-/// across and along.
-RIVEN_INLINE PairImpulse hold(PairImpulse by_law, double pressed, bool sticks, double reduced_mass, Vec2 u, Vec2 w) {
+/// The impulse of a pair that pressed by `pressed` (N s) in the last update, from its own law's; masses, u and w:
+/// components across and along.
+RIVEN_INLINE PairImpulse hold(PairImpulse by_law, double pressed, bool sticks, Vec2 reduced_mass, Vec2 u, Vec2 w) {
   PairImpulse r = by_law;
   if (u.x < 0)
-    r.lambda = std::max(-pressed, reduced_mass * along_with(u.x, std::min(0., w.x)));
+    r.lambda = std::max(-pressed, reduced_mass.x * along_with(u.x, std::min(0., w.x)));
   if (sticks)
-    r.tau = std::clamp(reduced_mass * along_with(u.y, w.y), -pressed, pressed);
+    r.tau = std::clamp(reduced_mass.y * along_with(u.y, w.y), -pressed, pressed);
   return r;
 }
 

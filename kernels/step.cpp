@@ -120,7 +120,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {
     list_constraints(m.scene, m.plan, m.state);
     if (m.plan.contact)
-      mark_prescribed(m.state.constraints, m.state.fields, m.state.grid.slots(), m.contact_sums.prescribed);
+      mark_prescribed(m.state.constraints, m.state.fields, m.state.grid.slots(), m.early_impulse(), m.contact_sums);
     prescribe_velocities(m.space, m.state, Stage::before, m.early_impulse());
   });
   add_contact(true, "contact before", "contact", contact_before_update<Real>);
@@ -166,6 +166,8 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {
     const Clock& c = m.state.clock;
+    if (!m.contact_sums.prescribed.empty())
+      take_resisted(m.contact_sums.resisted, m.state.grid.lattice, m.state.constraints);
     settle_constraints(m.space, m.plan, m.early_impulse(), m.state);
     if (report_due(m.scene, c.time, c.time + c.dt))
       for (ConstraintOwner& o : m.state.constraints.owners)

@@ -126,12 +126,13 @@ struct PairImpulse {
   double lambda, tau;
 };
 
-/// The impulse of a pair, given the velocities of approach and of sliding that it would have without.
-RIVEN_INLINE PairImpulse pair_impulse(const ContactPair& p, double reduced_mass, double across, double along) {
-  double lambda = response_impulse(p.across, reduced_mass, across);
+/// The impulse of a pair, given the velocities of approach and of sliding that it would have without, and the masses of
+/// these motions; all across (x) and along (y).
+RIVEN_INLINE PairImpulse pair_impulse(const ContactPair& p, Vec2 reduced_mass, Vec2 velocity) {
+  double lambda = response_impulse(p.across, reduced_mass.x, velocity.x);
   if (p.unilateral)
     lambda = std::max(0., lambda);
-  double tau = response_impulse(p.along, reduced_mass, along);
+  double tau = response_impulse(p.along, reduced_mass.y, velocity.y);
   if (p.frictional) {
     const double limit = p.friction * std::abs(lambda);
     tau = std::clamp(tau, -limit, limit);

@@ -142,7 +142,7 @@ struct ContactSweep {
     const ContactPair& p = pair(k);
     const Vec2 n = p.normal, t = turned(n), u = approach(k);
     const double m = reduced[k];
-    const auto [lambda, tau] = pair_impulse(p, m, dot(u, n) + r[2 * k] / m, dot(u, t) + r[2 * k + 1] / m);
+    const auto [lambda, tau] = pair_impulse(p, {m, m}, {dot(u, n) + r[2 * k] / m, dot(u, t) + r[2 * k + 1] / m});
     const double dn = lambda - r[2 * k], dt = tau - r[2 * k + 1];
     r[2 * k] = lambda;
     r[2 * k + 1] = tau;

@@ -30,7 +30,7 @@ TEST(PressedFaces, KeepWhatGoesAlongWithTheSolidAboutThem) {
   const PairImpulse none{0, 0}, by_law{0.5, 0.1};
   constexpr bool slides = false, sticks = true;
   const auto held = [](PairImpulse law, double pressed, bool stick, Vec2 u, Vec2 w) {
-    const PairImpulse r = hold(law, pressed, stick, 2, u, w);
+    const PairImpulse r = hold(law, pressed, stick, {2, 2}, u, w);
     return Vec2{r.lambda, r.tau};
   };
   const auto same = [](Vec2 a, Vec2 b) { return norm(a - b) < 1e-15; };
