@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/state/keep_off_cracks.hpp"
 #include "core/state/lay_points.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
@@ -181,9 +182,13 @@ void make_constraints(const Scene& scene, State<Real, 2>& s) {
   }
   for (const Constraint& k : c.fixed)
     c.at_node[k.node] = 0;
+  const KeepOffCracks keep_off(s.cracks, l);
   for (const Grip& g : scene.grips) {
     const int owner = add_owner(g.name, g.velocity);
-    c.grips.push_back({owner, lay_points(g.region, {}, l, g.particles_per_cell), 0.5 / g.particles_per_cell});
+    std::vector<Vec2> points = lay_points(g.region, {}, l, g.particles_per_cell);
+    for (Vec2& x : points)
+      x = keep_off.from(x, [&](Vec2 at) { return contains(g.region, at); });
+    c.grips.push_back({owner, std::move(points), 0.5 / g.particles_per_cell});
   }
 }
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/state/bodies_at_cracks.hpp"
 #include "core/state/junctions.hpp"
+#include "core/state/keep_off_cracks.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "core/state/tractions.hpp"
@@ -117,9 +118,6 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       a.resize(n);
   if (plan.keeps_J())
     p.J.resize(n);
-  if (plan.first_positions())
-    for (auto& a : p.x0)
-      a.resize(n);
   for (long i = 0; i < n; ++i) {
     const Seed& seed = seeds[static_cast<size_t>(i)];
     p.x[0][i] = seed.x.x;
@@ -133,10 +131,6 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       p.F[0][i] = p.F[3][i] = 1;
     if (plan.keeps_J())
       p.J[i] = 1;
-    if (plan.first_positions()) {
-      p.x0[0][i] = p.x[0][i];
-      p.x0[1][i] = p.x[1][i];
-    }
     s.particle_mass = std::max(s.particle_mass, seed.mass);
   }
   if (plan.cracks) {
@@ -153,7 +147,16 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     if (plan.tractions)
       lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
+    const KeepOffCracks keep_off(s.cracks, s.grid.lattice);
+    for (long i = 0; i < n; ++i) {
+      const Vec2 x = keep_off.from({p.x[0][i], p.x[1][i]}, [&](Vec2 at) { return body_at(scene, at) == p.body[i]; });
+      p.x[0][i] = x.x;
+      p.x[1][i] = x.y;
+    }
   }
+  if (plan.first_positions())
+    for (int d = 0; d < 2; ++d)
+      p.x0[d] = p.x[d];
   if (plan.fracture) {
     s.tips = make_tips(scene);
     s.readings.assign(scene.readings.size(), s.tips);

@@ -9,7 +9,11 @@
 // plate's speed over tan(theta). Without p, the block slides from under its load at once, or carries it for ever.
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <utility>
+
 #include "io/crack_opening.hpp"
+#include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
 #include "tests/spaces.hpp"
 
@@ -108,6 +112,59 @@ TEST(InclinedCrack, SticksBelowTheLimitOfEquilibrium) {
   ASSERT_GT(slipping(300, 0.45), 1.2 * sticking(300));
   EXPECT_NEAR(s.carried, sticking(300), 0.005 * sticking(300));
   EXPECT_LT(s.slid, 0.02 * speed * end);
+}
+
+/// A block of 16 x 8 cells on a slope of 45 degrees that does not move, under a weight of 0.1 % of E that sets in at
+/// once. The crack between them is a diagonal of the lattice of particles. Its acceleration along the slope over that
+/// of one without friction, 1 - mu, by the speed that it has gained.
+double acceleration_on_slope(double mu, bool reversed) {
+  Scene s = empty_scene(1, {{-24, -30}, {30, 30}});
+  const double r = std::numbers::sqrt2 / 2;
+  const auto at = [&](double along, double up) { return Vec2{r * (along - up), r * (along + up)}; };
+  const Polygon slope{{at(-20, -6), at(30, -6), at(30, 0), at(-20, 0)}};
+  Body block = body("block", Polygon{{at(0, 0), at(16, 0), at(16, 8), at(0, 8)}});
+  s.bodies = {body("slope", slope), block};
+  s.cracks = {crack("foot", {at(-21, 0), at(31, 0)})};
+  if (reversed)
+    std::swap(s.cracks[0].points[0], s.cracks[0].points[1]);
+  s.contact = {ContactLaw::coulomb, mu, 0, 0};
+  Grip g;
+  g.name = "slope";
+  g.region = slope;
+  for (auto& v : g.velocity)
+    v = constant(0);
+  s.grips = {g};
+  const double weight = 1e-3 * s.materials[0].E / (s.materials[0].density * 8);
+  s.body_force[1] = constant(-weight);
+  const ChosenSpace space;
+  Simulation m(s, space);
+  const auto speed = [&] {
+    double sum = 0, mass = 0;
+    for (long i = 0; i < m.state.particles.count(); ++i)
+      if (m.state.particles.body[i] == 1) {
+        const double part = m.state.particles.mass[i];
+        sum -= part * r * (m.state.particles.v[0][i] + m.state.particles.v[1][i]);
+        mass += part;
+      }
+    return sum / mass;
+  };
+  constexpr double settled = 3, seconds = 8;
+  while (m.state.clock.time < settled)
+    m.step();
+  const double first = speed(), from = m.state.clock.time;
+  while (m.state.clock.time < settled + seconds)
+    m.step();
+  return (speed() - first) / (m.state.clock.time - from) / (r * weight);
+}
+
+TEST(Slope, LetsABlockSlideWhereParticlesLieOnTheCrack) {
+  for (const bool reversed : {false, true})
+    for (const double mu : {0., 0.4}) {
+      const double a = acceleration_on_slope(mu, reversed);
+      gates::report(fmt::format("block on 45 degrees, friction {}: acceleration", mu), a,
+                    fmt::format("{} +-0.02", 1 - mu));
+      EXPECT_NEAR(a, 1 - mu, 0.02) << (reversed ? "crack drawn downwards" : "");
+    }
 }
 
 }  // namespace
