@@ -35,11 +35,11 @@ nlohmann::json summary_of(const fs::path& folder) {
   return summary.is_object() ? std::move(summary) : nlohmann::json::object();
 }
 
-/// Is it a table of a run, or one that a killed run has left empty?
-bool is_table(const fs::path& path) {
+/// Is it a table of a run, whose first line begins so, or one that a killed run has left empty?
+bool is_table(const fs::path& path, std::string_view begin) {
   std::ifstream in(path);
   std::string line;
-  return !std::getline(in, line) || line.starts_with("time [s],");
+  return !std::getline(in, line) || line.starts_with(begin);
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -51,8 +51,9 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void refuse_to_remove_results(const fs::path& folder, const std::string& scene) {
   const nlohmann::json summary = summary_of(folder);
-  for (const char* name : {"history.csv", "events.csv"})
-    if (!is_table(folder / name))
+  for (const auto& [name, begin] :
+       {std::pair{"history.csv", "time [s],"}, {"events.csv", "time [s],"}, {"crack_paths.csv", "crack,point,"}})
+    if (!is_table(folder / name, begin))
       fail({Exit::file, "this folder holds a file of this name that no run has written", (folder / name).string(), "",
             "a folder that is new, or holds results", "-o names another folder; --overwrite removes what is there"});
   const std::string status = summary.value("status", "interrupted"), there = summary.value("scene", scene);

@@ -109,15 +109,6 @@ void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
                                     format_length(spacing, 4)),
                         "try smaller cells"});
     }
-  for (const Grip& g : s.grips) {
-    const Rectangle box = bounds(g.region), way = travel(s, g);
-    const Vec2 around{s.cell, s.cell};
-    const Rectangle swept{box.lower + way.lower - around, box.upper + way.upper + around};
-    if (std::none_of(s.bodies.begin(), s.bodies.end(),
-                     [&](const Body& b) { return checks::overlap(swept, bounds(b.region)); }))
-      list.push_back({place(s, "grip " + g.name), "the grip is more than a cell away from all bodies, wherever it goes",
-                      "try a region beside what it is to hold"});
-  }
 }
 
 double thickness_of(const Scene& s, const Body& b) {
@@ -271,6 +262,7 @@ std::vector<Doubt> doubts(const Scene& s) {
   doubt_materials(s, list);
   doubt_toughness(s, list);
   doubt_solids(s, list);
+  doubt_grips(s, list);
   doubt_loads(s, list);
   doubt_cracks(s, list);
   return list;

@@ -15,10 +15,12 @@ struct Doubt {
 
 /// Cracks too short to open, tips beside another material or the end of the solid, contours too small for J, cohesive
 /// zones too short for the cells, bodies and holes that particles do not make up, bodies faster than their waves, grips
-/// away from all bodies, tractions on oblique edges and in holes, and materials whose density or wave speed no solid
-/// has. `s`: a scene that passes check_scene.
+/// away from all bodies or just past a crack, tractions on oblique edges and in holes, and materials whose density or
+/// wave speed no solid has. `s`: a scene that passes check_scene.
 std::vector<Doubt> doubts(const Scene& s);
-/// Of these, those of tractions.
+/// Of these, those of grips.
+void doubt_grips(const Scene& s, std::vector<Doubt>& list);
+/// And those of tractions.
 void doubt_loads(const Scene& s, std::vector<Doubt>& list);
 
 /// Prints them to stderr, a note each, and says how many there are.

@@ -11,6 +11,7 @@
 #include "core/scene/names.hpp"
 #include "core/scene/schedule.hpp"
 #include "io/checkpoint_store.hpp"
+#include "io/crack_paths.hpp"
 #include "io/event_log.hpp"
 #include "io/folder_lock.hpp"
 #include "io/frames.hpp"
@@ -74,8 +75,9 @@ class Run {
   /// Opens the files of results with what the run has so far; what is in them beyond that is taken away.
   void open_results() {
     record_.emplace(options_.folder, m_, probes_, so_far_.history);
-    if (!options_.restart)  // a summary is of a run that has ended: one that is killed leaves none
-      std::filesystem::remove(options_.folder / "summary.json");
+    if (!options_.restart)  // these are of a run that has ended: one that is killed leaves none
+      for (const char* of_the_end : {"summary.json", "crack_paths.csv"})
+        std::filesystem::remove(options_.folder / of_the_end);
     frames_.emplace(options_.folder, m_.scene, so_far_.frames);
     so_far_.history.clear();  // is in the file, and may be large
     if (m_.plan.growth || m_.plan.contact_waits || m_.scene.limits.retries > 0)
@@ -269,6 +271,8 @@ class Run {
     s.retries = so_far_.retries;
     s.between_steps = between_;
     s.fragments = fragments_;
+    if (m_.plan.cracks)
+      write_crack_paths(options_.folder / "crack_paths.csv", m_.state.cracks);
     write_summary(options_.folder / "summary.json", s);
     return s;
   }

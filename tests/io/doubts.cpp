@@ -131,6 +131,27 @@ TEST(Doubts, NameGripsThatHoldNothing) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameGripsThatReachJustPastACrack) {
+  Scene s = sound_scene();
+  Grip side;
+  side.name = "side";
+  side.velocity[1] = TimeFunction{1, {}, ""};
+  const auto from = [&](double lower) {
+    side.region = Rectangle{{-2e-3, lower}, {0, 30e-3}};
+    s.grips[1] = side;
+    return s;
+  };
+  s.grips.push_back(side);
+  expect_doubt(from(19.4e-3), "grip side", "past crack edge");
+  s.cracks[0].contact = ContactSettings{ContactLaw::bonded, 0, 0, 0};
+  EXPECT_TRUE(doubts(from(19.4e-3)).empty()) << "nothing parts";
+  s.cracks[0].contact.reset();
+  for (const double sound : {20e-3, 17e-3})
+    EXPECT_TRUE(doubts(from(sound)).empty()) << sound;
+  s.cracks[0].points[0].x = 0;  // at the edge of the plate, and of the grip
+  expect_doubt(from(19.4e-3), "grip side", "past crack edge");
+}
+
 TEST(Doubts, NameHolesBetweenParticles) {
   Scene s = sound_scene();
   s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {30.3e-3, 34e-3}}};

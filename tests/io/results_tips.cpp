@@ -1,10 +1,13 @@
 // What is written of the tips of cracks: events as they happen, columns of the history, entries of the summary.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "io/crack_opening.hpp"
+#include "io/crack_paths.hpp"
 #include "io/event_log.hpp"
 #include "io/tip_report.hpp"
 
@@ -159,6 +162,27 @@ TEST(ResultsTips, AreAllInTheSummary) {
   EXPECT_EQ(list[1].x, 0);
   EXPECT_EQ(list[2].state, "resting");
   EXPECT_EQ(list[2].contour, "");
+}
+
+TEST(ResultsTips, PathsOfCracksAreATableOfTheirPoints) {
+  const auto path = std::filesystem::temp_directory_path() / "riven_crack_paths.csv";
+  Cracks cracks = two_cracks();
+  cracks.names[1] = "second, \"B\"";
+  const int end = cracks.end_point(1, true);
+  cracks.plane[end] = {3.25, 1.5};
+  cracks.upper[end] = {3.125, 1.75};
+  cracks.lower[end] = {3.375, 1.25};
+  write_crack_paths(path, cracks);
+  const auto lines = lines_of(path);
+  ASSERT_EQ(lines.size(), 1u + static_cast<std::size_t>(cracks.points()));
+  EXPECT_EQ(lines[0], "crack,point,x [m],y [m],first x [m],first y [m],opening [m],sliding [m]");
+  EXPECT_EQ(lines[1], "low,0,0,1,0,1,0,0");
+  const CrackOpening o = crack_openings(cracks).back();
+  EXPECT_GT(o.normal, 0.1);
+  EXPECT_LT(o.sliding, -0.1);
+  EXPECT_EQ(lines.back(), fmt::format("\"second, \"\"B\"\"\",{},3.25,1.5,3,2,{:.17g},{:.17g}",
+                                      end - cracks.end_point(1, false), o.normal, o.sliding));
+  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -181,10 +181,15 @@ TEST(RunInFolder, ATableThatIsNoneOfRivensIsNotRemovedUnlessToldTo) {
   const LongRun run;
   const std::string there = "year,event\n1215,charter\n";
   std::filesystem::create_directories(run.results());
+  for (const char* name : {"history.csv", "events.csv", "crack_paths.csv"}) {
+    const std::filesystem::path table = run.results() / name;
+    write_file(table, there);
+    const Program refused(run.arguments({"--wall-limit", "50 ms"}), run.printed());
+    run.expect(refused.end(), 4, {table.string(), "no run has written", "--overwrite"});
+    EXPECT_EQ(sample::text_of(table), there);
+    std::filesystem::remove(table);
+  }
   write_file(run.results() / "history.csv", there);
-  const Program refused(run.arguments({"--wall-limit", "50 ms"}), run.printed());
-  run.expect(refused.end(), 4, {(run.results() / "history.csv").string(), "no run has written", "--overwrite"});
-  EXPECT_EQ(sample::text_of(run.results() / "history.csv"), there);
   const Program told(run.arguments({"--wall-limit", "50 ms", "--overwrite"}), run.printed());
   run.expect(told.end(), 5, {"the wall limit"});
 }

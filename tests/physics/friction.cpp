@@ -128,12 +128,7 @@ double acceleration_on_slope(double mu, bool reversed) {
   if (reversed)
     std::swap(s.cracks[0].points[0], s.cracks[0].points[1]);
   s.contact = {ContactLaw::coulomb, mu, 0, 0};
-  Grip g;
-  g.name = "slope";
-  g.region = slope;
-  for (auto& v : g.velocity)
-    v = constant(0);
-  s.grips = {g};
+  s.grips = {grip_at_rest("slope", slope)};
   const double weight = 1e-3 * s.materials[0].E / (s.materials[0].density * 8);
   s.body_force[1] = constant(-weight);
   const ChosenSpace space;

@@ -244,12 +244,7 @@ Scene block_on_platen(const ContactSettings& law, double speed) {
   s.cracks = {crack("foot", {{-7, 0}, {length + 7, 0}})};
   s.contact = law;
   const auto from = [](double start) { return [start](double t) { return std::clamp((t - start) / 2, 0., 1.); }; };
-  Grip g;
-  g.name = "platen";
-  g.region = platen;
-  for (auto& v : g.velocity)
-    v = constant(0);
-  s.grips = {g};
+  s.grips = {grip_at_rest("platen", platen)};
   s.fixed = {{"top", {{-2, 10}, {length + 2, 10}}, {TimeFunction{-speed, from(6), ""}, std::nullopt}}};
   Load top;
   top.name = "top";

@@ -45,6 +45,15 @@ inline TimeFunction constant(double value) {
   return {value, {}, ""};
 }
 
+inline Grip grip_at_rest(const char* name, Region region) {
+  Grip g;
+  g.name = name;
+  g.region = std::move(region);
+  for (auto& v : g.velocity)
+    v = constant(0);
+  return g;
+}
+
 /// A plate of 40 mm x 40 mm about the origin on cells of 1 mm, pulled up and down by 1 MPa until it rests: plane
 /// stress, E = 3 GPa, nu = 0.3, 1200 kg/m^3.
 inline Scene pulled_plate(CrackLine line, int contour) {
