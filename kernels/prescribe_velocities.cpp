@@ -72,17 +72,6 @@ void prescribe_velocities(const exec::Space& space, State<Real, 2>& s, Stage sta
   book_impulses(s.grid.lattice, std::as_const(c.list), std::as_const(c.impulse), c.owners);
 }
 
-void take_resisted(const exec::Array<Vec2>& resisted, const Lattice& lattice, Constraints& c) {
-  const exec::Array<Constraint>& list = c.list;
-  exec::Array<Vec2>& in_update = c.change[static_cast<int>(Stage::after)];
-  for (long n = 0; n < list.size(); ++n) {
-    const Vec2 r = resisted[list[n].slot];
-    c.impulse[n] = {list[n].mask & 1u ? r.x : 0, list[n].mask & 2u ? r.y : 0};
-    in_update[n] += c.impulse[n];
-  }
-  book_impulses(lattice, list, std::as_const(c.impulse), c.owners);
-}
-
 namespace {
 /// What a component of a field of a node gains by prescribed motion, as field_impulses.hpp has it for contact.
 struct Gain {
@@ -101,19 +90,24 @@ struct Gains {
   StrainShares share;
   double dt, early_impulse;
 
-  RIVEN_FN Gain operator()(long slot, int axis, double before, double now, double last, bool carry) const {
+  /// `resisted`: of contact, which gave the field as much the other way, and has booked that with the velocities in
+  /// between as the grid has them (field_impulses.hpp).
+  RIVEN_FN Gain operator()(long slot, int axis, double before, double now, double last, double resisted,
+                           bool carry) const {
     const double m = mass[slot], v1 = q[4 * slot + axis], a = q[4 * slot + 2 + axis];
     const double given = now + (carry ? before : 0), early = carry ? 0 : early_impulse * before;
     const double v0 = v1 - dt * a - (carry ? 0 : before / m);
     const double v2 = again ? again[4 * slot + axis] - last / m : v0 + dt * a + early / m, mean = 0.5 * (v0 + v2);
     const double strains = share.by_first * before + share.by_last * last;
-    return {(given + early) * mean - (dt * a - given / m) * strains, early * mean};
+    const double on_grid = 0.5 * (v1 - dt * a + (again ? again[4 * slot + axis] : v1));
+    return {(given + early) * mean + resisted * on_grid - (dt * a - given / m) * strains, early * mean};
   }
 };
 
 /// Books what prescribed motion took beyond the work of the reactions.
 template <class Real>
-void book_capture(const exec::Space& space, const Plan& plan, double early_impulse, State<Real, 2>& state) {
+void book_capture(const exec::Space& space, const Plan& plan, double early_impulse, const exec::Array<Vec2>& resisted,
+                  State<Real, 2>& state) {
   const State<Real, 2>& s = state;
   const Constraints& c = s.constraints;
   const Gains<Real> gain{
@@ -122,15 +116,17 @@ void book_capture(const exec::Space& space, const Plan& plan, double early_impul
   const Constraint* list = exec::data(c.list);
   const Vec2 *before = exec::data(c.change[0]), *now = exec::data(c.change[1]), *last = exec::data(c.change[2]);
   const int first_grip = c.first_grip();
+  const Vec2* held = resisted.empty() ? nullptr : exec::data(resisted);
   const Gain sum =
       exec::parallel_sum<Gain>(space, "boundary: capture", c.list.size(), [=] RIVEN_KERNEL(long n, Gain& all) {
         const Constraint k = list[n];
         if (!(gain.mass[k.slot] > 0))
           return;
+        const Vec2 r = held ? held[k.slot] : Vec2{};
         if (k.mask & 1u)
-          all += gain(k.slot, 0, before[n].x, now[n].x, last[n].x, k.owner[0] >= first_grip);
+          all += gain(k.slot, 0, before[n].x, now[n].x, last[n].x, r.x, k.owner[0] >= first_grip);
         if (k.mask & 2u)
-          all += gain(k.slot, 1, before[n].y, now[n].y, last[n].y, k.owner[1] >= first_grip);
+          all += gain(k.slot, 1, before[n].y, now[n].y, last[n].y, r.y, k.owner[1] >= first_grip);
       });
   Energy& e = state.ledger.energy;
   e.transfer += sum.early;
@@ -142,9 +138,15 @@ void book_capture(const exec::Space& space, const Plan& plan, double early_impul
 }  // namespace
 
 template <class Real>
-void settle_constraints(const exec::Space& space, const Plan& plan, double early_impulse, State<Real, 2>& s) {
+void settle_constraints(const exec::Space& space, const Plan& plan, double early_impulse,
+                        const exec::Array<Vec2>& resisted, State<Real, 2>& s) {
   Constraints& c = s.constraints;
-  book_capture(space, plan, early_impulse, s);
+  if (!resisted.empty()) {
+    for (long n = 0; n < c.list.size(); ++n)
+      c.impulse[n] = resisted[std::as_const(c.list)[n].slot];
+    book_impulses(s.grid.lattice, std::as_const(c.list), std::as_const(c.impulse), c.owners);
+  }
+  book_capture(space, plan, early_impulse, resisted, s);
   for (ConstraintOwner& o : c.owners) {
     o.reaction = (1 / s.clock.dt) * o.impulse;
     o.mean.add(o.impulse, s.clock.dt);
@@ -163,7 +165,7 @@ void settle_constraints(const exec::Space& space, const Plan& plan, double early
 
 #define RIVEN_PRESCRIBE_VELOCITIES(Real)                                                  \
   template void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double); \
-  template void settle_constraints(const exec::Space&, const Plan&, double, State<Real, 2>&);
+  template void settle_constraints(const exec::Space&, const Plan&, double, const exec::Array<Vec2>&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_PRESCRIBE_VELOCITIES)
 #undef RIVEN_PRESCRIBE_VELOCITIES
 

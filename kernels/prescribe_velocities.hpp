@@ -22,13 +22,12 @@ enum class Stage { before, after, again, term };
 template <class Real>
 void prescribe_velocities(const exec::Space&, State<Real, 2>&, Stage, double early_impulse = 0);
 
-/// Adds what prescribed fields resisted of contact (ContactSums) to what their owners gave to the body in this step.
-void take_resisted(const exec::Array<Vec2>& resisted, const Lattice&, Constraints&);
-
 /// Ends the step: books impulses, work and what was lost as bodies were caught, moves the grips, turns impulses into
-/// reaction forces. Needs Grid::q as [vx vy ax ay] and Grid::again, where there is one, as [vx vy . .].
+/// reaction forces. `resisted`: ContactSums, or empty. Needs Grid::q as [vx vy ax ay] and Grid::again, where there is
+/// one, as [vx vy . .].
 template <class Real>
-void settle_constraints(const exec::Space&, const Plan&, double early_impulse, State<Real, 2>&);
+void settle_constraints(const exec::Space&, const Plan&, double early_impulse, const exec::Array<Vec2>& resisted,
+                        State<Real, 2>&);
 
 }  // namespace RIVEN_SIDE
 

@@ -166,9 +166,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {
     const Clock& c = m.state.clock;
-    if (!m.contact_sums.prescribed.empty())
-      take_resisted(m.contact_sums.resisted, m.state.grid.lattice, m.state.constraints);
-    settle_constraints(m.space, m.plan, m.early_impulse(), m.state);
+    settle_constraints(m.space, m.plan, m.early_impulse(), m.contact_sums.resisted, m.state);
     if (report_due(m.scene, c.time, c.time + c.dt))
       for (ConstraintOwner& o : m.state.constraints.owners)
         o.mean.take(0.5 * row_interval(m.scene));

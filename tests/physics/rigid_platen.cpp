@@ -1,0 +1,110 @@
+// A body that is a grip all through, and one that is pressed on it and slides: the platen bears the load, and friction
+// times it, and stands.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/physics/scene_gates.hpp"
+#include "tests/physics/scenes.hpp"
+#include "tests/spaces.hpp"
+
+namespace riven {
+namespace {
+
+using namespace test;
+
+constexpr double length = 20;  // cells, each 1 m
+
+/// A block of 20 x 10 cells, each 1 m, on a platen that is a grip through and through, pressed down by 1 % of E within
+/// 2 s. From 6 s on its upper edge moves sideways by `speed`, m/s.
+Scene block_on_platen(const ContactSettings& law, double speed) {
+  Scene s = empty_scene(1, {{-8, -6}, {length + 8, 14}});
+  s.materials[0].nu = 0;
+  const Rectangle platen{{-6, -4}, {length + 6, 0}};
+  s.bodies = {body("platen", platen), body("block", Rectangle{{0, 0}, {length, 10}})};
+  s.cracks = {crack("foot", {{-7, 0}, {length + 7, 0}})};
+  s.contact = law;
+  const auto from = [](double start) { return [start](double t) { return std::clamp((t - start) / 2, 0., 1.); }; };
+  s.grips = {grip_at_rest("platen", platen)};
+  s.fixed = {{"top", {{-2, 10}, {length + 2, 10}}, {TimeFunction{-speed, from(6), ""}, std::nullopt}}};
+  Load top;
+  top.name = "top";
+  top.kind = Load::Kind::traction;
+  top.edge = Load::Edge::top;
+  top.region = Rectangle{{0, 9}, {length, 10}};
+  top.value[1] = TimeFunction{-0.01 * s.materials[0].E, from(0), ""};
+  s.loads = {top};
+  s.grid_damping = constant(5);
+  s.end_time = 16;
+  return s;
+}
+
+struct OnPlaten {
+  double sunk = 0;      ///< cells, mean of the lowest particles of the block
+  Vec2 carried;         ///< reaction of the platen over the load, mean of the last 2 s
+  double unbooked = 0;  ///< energy that nothing accounts for, over the largest
+  double caught = 0;    ///< and what grips caught
+};
+
+OnPlaten press_on_platen(const Scene& s) {
+  const ChosenSpace space;
+  Simulation m(s, space);
+  OnPlaten r;
+  Vec2 impulse;
+  double since = 0;
+  while (!m.finished()) {
+    m.step();
+    const Clock& c = m.state.clock;
+    if (c.time < s.end_time - 2)
+      continue;
+    since += c.dt;
+    impulse += c.dt * m.state.constraints.owners.back().reaction;
+  }
+  r.carried = (1 / since / (0.01 * s.materials[0].E * length)) * impulse;
+  const auto& p = m.state.particles;
+  int count = 0;
+  for (long i = 0; i < p.count(); ++i)
+    if (p.body[i] == 1 && p.x0[1][i] < 0.5) {
+      r.sunk += p.x0[1][i] - p.x[1][i];
+      ++count;
+    }
+  r.sunk /= count;
+  m.take_stock();
+  const Energy& e = m.state.ledger.energy;
+  r.unbooked = e.relative_error();
+  r.caught = e.capture / e.strain;
+  return r;
+}
+
+// The lowest particles lie a quarter of a cell above the platen, and sink by a quarter of 1 % of a cell.
+TEST(RigidPlaten, DoesNotGiveWayToFacesThatPressOnIt) {
+  const auto expect = [](const char* what, const Scene& s, double friction) {
+    const OnPlaten r = press_on_platen(s);
+    gates::report(fmt::format("{} on a rigid platen: face, cells below where it was", what), r.sunk, "0.0025 +-0.01");
+    gates::report("and force along the platen over the load", r.carried.x, fmt::format("{} +-1 %", friction));
+    EXPECT_NEAR(r.sunk, 0.0025, 0.01) << what;
+    EXPECT_NEAR(r.carried.y, 1, 0.01) << what;
+    EXPECT_NEAR(r.carried.x, friction, 0.01 * friction + 1e-3) << what;
+    EXPECT_LT(std::abs(r.unbooked), 0.01) << what;
+    EXPECT_LT(std::abs(r.caught), 0.02) << what;
+  };
+  for (const Transfer transfer : {Transfer::flip, Transfer::fmpm}) {
+    Scene smooth = block_on_platen({ContactLaw::frictionless, 0, 0, 0}, 0.05);
+    Scene rough = block_on_platen({ContactLaw::coulomb, 0.3, 0, 0}, 0.05);
+    Scene stuck = block_on_platen({ContactLaw::stick, 0, 0, 0}, 0);
+    Scene cut = smooth;  // nodes that hold two cracks
+    cut.cracks.push_back(crack("cut", {{length / 2, 11}, {length / 2, -1}}));
+    for (Scene* s : {&smooth, &rough, &stuck, &cut}) {
+      s->transfer = transfer;
+      s->order = 2;
+    }
+    expect("smooth block", smooth, 0);
+    expect("rough block", rough, 0.3);
+    expect("block that sticks", stuck, 0);
+    expect("block cut in two", cut, 0);
+  }
+}
+
+}  // namespace
+}  // namespace riven
