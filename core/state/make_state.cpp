@@ -148,8 +148,11 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       lay_tractions(scene, s.cracks);
     s.fields.fields.resize(n);
     const KeepOffCracks keep_off(s.cracks, s.grid.lattice);
+    int body = 0;
+    const std::function<bool(Vec2)> holds = [&](Vec2 at) { return body_at(scene, at) == body; };
     for (long i = 0; i < n; ++i) {
-      const Vec2 x = keep_off.from({p.x[0][i], p.x[1][i]}, [&](Vec2 at) { return body_at(scene, at) == p.body[i]; });
+      body = p.body[i];
+      const Vec2 x = keep_off.from({p.x[0][i], p.x[1][i]}, holds);
       p.x[0][i] = x.x;
       p.x[1][i] = x.y;
     }

@@ -1,9 +1,10 @@
 // A body that is a grip all through, and one that is pressed on it and slides: the platen bears the load, and friction
-// times it, and stands.
+// times it, and stands; where it is free in one component alone, it is pushed aside.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
@@ -103,6 +104,63 @@ TEST(RigidPlaten, DoesNotGiveWayToFacesThatPressOnIt) {
     expect("rough block", rough, 0.3);
     expect("block that sticks", stuck, 0);
     expect("block cut in two", cut, 0);
+  }
+}
+
+/// Of the particles of a body.
+struct Means {
+  Vec2 place, velocity;
+};
+Means means_of(const Simulation& m, int body) {
+  const auto& p = m.state.particles;
+  Means all;
+  int count = 0;
+  for (long i = 0; i < p.count(); ++i)
+    if (p.body[i] == body) {
+      all.place += {p.x[0][i], p.x[1][i]};
+      all.velocity += {p.v[0][i], p.v[1][i]};
+      ++count;
+    }
+  return {(1. / count) * all.place, (1. / count) * all.velocity};
+}
+
+// A block of mass m slides down a slope of 30 degrees on a wedge of mass M, whose grip holds it up and lets it go
+// sideways. With N the force across the slope, s and c its sine and cosine,
+//   M A = N (s - mu c),   N (c + mu s + (s - mu c) (1 + m/M) s/c) = m g.
+TEST(RigidPlaten, IsPushedAsideWhereItIsFree) {
+  const double angle = std::numbers::pi / 6, c = std::cos(angle), s = std::sin(angle), weight = 0.125;
+  const double time = 6;  // in which the wedge moves by half a cell, and its grip does not
+  const auto at = [&](double along, double up) { return Vec2{c * along - s * up, s * along + c * up}; };
+  for (const double mu : {0., 0.3}) {
+    Scene scene = empty_scene(1, {{-26, -24}, {34, 34}});
+    scene.transfer = Transfer::xpic;
+    scene.order = 2;
+    const Polygon wedge{{at(-20, -5), at(26, -5), at(26, 0), at(-20, 0)}};
+    scene.bodies = {body("wedge", wedge), body("block", Polygon{{at(0, 0), at(16, 0), at(16, 8), at(0, 8)}})};
+    scene.cracks = {crack("foot", {at(-21, 0), at(27, 0)})};
+    scene.contact = {ContactLaw::coulomb, mu, 0, 0};
+    scene.grips = {grip_at_rest("wedge", wedge)};
+    scene.grips[0].velocity[0].reset();
+    scene.body_force[1] = constant(-weight);
+    const ChosenSpace space;
+    Simulation m(scene, space);
+    const auto apart = [&] { return dot(means_of(m, 1).place - means_of(m, 0).place, Vec2{-s, c}); };
+    const double first = apart();
+    while (m.state.clock.time < time)
+      m.step();
+    double mass[2] = {0, 0};
+    for (long i = 0; i < m.state.particles.count(); ++i)
+      mass[m.state.particles.body[i]] += m.state.particles.mass[i];
+    const double slides = s - mu * c, ratio = mass[1] / mass[0];
+    const double across = mass[1] * weight / (c + mu * s + slides * (1 + ratio) * s / c);
+    const double wedge_speed = means_of(m, 0).velocity.x, block_speed = means_of(m, 1).velocity.x;
+    const double aside = wedge_speed / (m.state.clock.time * across * slides / mass[0]);
+    gates::report(fmt::format("wedge that a block pushes aside, friction {}: its speed over that of rigid bodies", mu),
+                  aside, "1 +-0.03");
+    gates::report("and how far the block sinks into it, cells", first - apart(), "0 +-0.01");
+    EXPECT_NEAR(aside, 1, 0.03);
+    EXPECT_NEAR(first - apart(), 0, 0.01);
+    EXPECT_NEAR(wedge_speed + ratio * block_speed, 0, 1e-9) << "momentum along x";
   }
 }
 
