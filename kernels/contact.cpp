@@ -131,7 +131,9 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     }
   } else if (v.touch == Touch::pushes || (v.touch == Touch::sticks && last > 0)) {
     const Vec2 across{un, dot(u, t)};
-    PairImpulse r = v.touch == Touch::pushes ? pair_impulse(v.pair, reduced, across) : PairImpulse{0, 0};
+    PairImpulse r{0, 0};
+    if (v.touch == Touch::pushes)
+      r = prescribed ? coupled_impulse(v.pair, yielding, across) : pair_impulse(v.pair, reduced, across);
     if (last > 0)
       r = hold(r, last, v.touch == Touch::sticks, reduced, across, found.apart(index, slot, mass, m));
     now = r.lambda;
@@ -236,12 +238,15 @@ struct NodeContact {
         list(m, judge(found, slot, node.mass, dt, m, relative_volume));
   }
 
-  /// Fields whose motion is prescribed do not give way. One that is prescribed in one component alone does, half-way:
-  /// what it resists is not given to it.
+  /// Fields whose motion is prescribed do not give way, where they are firm. One that is prescribed in one component
+  /// alone does, half-way: what it resists is not given to it.
   RIVEN_INLINE void hold_prescribed() {
     constexpr double heavy = 1e6;  // tolerances of the solution go by the sum of m |v|
+    double all = 0;
+    for (const double m : node.mass)
+      all += m;
     for (int f = 0; f < Node::fields; ++f)
-      if (node.mass[f] > 0 && found.prescribed.of(slot[f]) == 3) {
+      if (node.mass[f] > 0 && found.prescribed.of(slot[f]) == 3 && firmness(node.mass[f], all) == 1) {
         node.mass[f] *= heavy;
         node.momentum[f] *= heavy;
       }

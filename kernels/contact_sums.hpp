@@ -40,7 +40,7 @@ struct ContactSums {
   exec::Array<std::uint8_t> prescribed;  ///< [slots] bit 0: x, bit 1: y of a field's motion is prescribed; empty:
                                          ///< nowhere beside cracks
   exec::Array<Vec2> resisted;            ///< [slots] N s, what such fields resisted in this step of what contact gave
-                                         ///< them, for the other fields' particles to feel
+                                         ///< them, as far as particles of the others felt it; holds for those alone
   double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
   exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
 };

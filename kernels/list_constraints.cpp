@@ -49,6 +49,14 @@ class FieldClaims {
     }
   }
   unsigned all_of(int node) const { return (1u << slots_.count(node)) - 1; }
+  /// Those of a node's fields that have less mass than `most`, kg.
+  template <class Real>
+  unsigned light_of(int node, const Real* mass, double most) const {
+    unsigned fields = 0;
+    for (int f = 0; f < slots_.count(node); ++f)
+      fields |= (mass[slots_.of(node, f)] < most ? 1u : 0u) << f;
+    return fields;
+  }
   const std::vector<Constraint>& list() const { return list_; }
 
  private:
@@ -122,11 +130,15 @@ void claim_fixed(FieldClaims& claims, const RigidSight& sight, const Lattice& l,
 /// The nodes on which a rigid particle has a weight of a hundredth or more along both axes. With less, those of the
 /// next row move as the body has them: else it would be a cell shorter as soon as a grip is pushed into it, however
 /// little. With a larger share left free, what a bar's stress loses at its ends where they move past grid lines would
-/// be more than a per cent. Of a node near cracks only the field on the particle's side moves with it.
-template <class Shape>
-void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, const GripBlock& grip,
+/// be more than a per cent. Of a node near cracks only the field on the particle's side moves with it, and that with
+/// any weight that is a hundredth of the field's own: all that it holds may be the next to nothing of a body that the
+/// grip covers, whose particles it would strain by what meets them across the crack.
+template <class Shape, class Real>
+void claim_grip(FieldClaims& claims, const RigidSight& sight, const State<Real, 2>& s, const GripBlock& grip,
                 const ConstraintOwner& owner) {
   constexpr double least = 0.01;
+  const Lattice& l = s.grid.lattice;
+  const Real* mass = s.grid.mass.data();
   AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
   b.wall_lower = l.wall_lower[1];
   b.wall_upper = l.wall_upper[1];
@@ -137,10 +149,16 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const Lattice& l, 
     const auto y = Shape::axis((p.y - l.origin.y) / l.h, b);
     for (int j = 0; j < Shape::width; ++j)
       for (int i = 0; i < Shape::width; ++i) {
-        if (!(x.s[i] > least && y.s[j] > least))
-          continue;
         const int node = (y.base + j) * l.nx + x.base + i;
-        claims.claim(node, sight.fields_of(p, &first, node), mask, grip.owner);
+        const double weight = x.s[i] * y.s[j];
+        const bool weighs = x.s[i] > least && y.s[j] > least;
+        if (!weighs && (!(weight > 0) || !sight.sees_cracks(node)))
+          continue;
+        unsigned fields = sight.fields_of(p, &first, node);
+        if (!weighs)
+          fields &= claims.light_of(node, mass, weight * s.particle_mass / least);
+        if (fields != 0 || weighs)
+          claims.claim(node, fields, mask, grip.owner);
       }
   }
 }
@@ -209,13 +227,14 @@ void list_constraints(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     c.next[i] = {o.next[0], o.next[1]};
   }
   const Lattice& l = s.grid.lattice;
+  const State<Real, 2>& state = s;
   const RigidSight sight(l, s.cracks, s.fields);
   FieldClaims claims(FieldSlots(s.fields, l.nodes()), c.at_node);
   for (const Constraint& k : c.fixed)
     claim_fixed(claims, sight, l, scene, k);
   with_shape(plan.shape, [&](auto shape) {
     for (const GripBlock& g : c.grips)
-      claim_grip<typename decltype(shape)::type>(claims, sight, l, g, c.owners[static_cast<size_t>(g.owner)]);
+      claim_grip<typename decltype(shape)::type>(claims, sight, state, g, c.owners[static_cast<size_t>(g.owner)]);
   });
   c.list.resize(static_cast<long>(claims.list().size()));
   std::copy(claims.list().begin(), claims.list().end(), c.list.begin());
@@ -235,10 +254,11 @@ void mark_prescribed(const Constraints& constraints, const CrackFields& fields, 
   sums.prescribed.resize(any ? slots : 0);
   sums.prescribed.zero();
   sums.resisted.resize(any ? slots : 0);
-  sums.resisted.zero();
-  for (long n = 0; any && n < list.size(); ++n)
+  for (long n = 0; any && n < list.size(); ++n) {
+    sums.resisted[list[n].slot] = {};
     if (parted(list[n]))
       sums.prescribed[list[n].slot] = list[n].mask;
+  }
 }
 
 #define RIVEN_LIST_CONSTRAINTS(Real)                             \

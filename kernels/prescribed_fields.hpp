@@ -2,11 +2,11 @@
 // components they have no 1/m, and all of a relative velocity is the other field's to lose. What they so resist comes
 // from who prescribes their motion, and is part of its reaction.
 //
-// With W = 1/m_a + 1/m_b of each component that is free, the impulse across a pair of normal n and along it meets
-//   1/m_n = n_x^2 W_x + n_y^2 W_y,   1/m_t = n_y^2 W_x + n_x^2 W_y
-// (what couples the two, n_x n_y (W_x - W_y), is left to the next step: it is 0 unless just one component is prescribed
-// and the crack runs aslant to that).
+// With W = 1/m_a + 1/m_b of each component that is free, impulses lambda n + tau t across and along a pair change its
+// relative velocity by
+//   u_n -= (n.W n) lambda + (n.W t) tau,   u_t -= (n.W t) lambda + (t.W t) tau.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/contact_meetings.hpp"
@@ -16,6 +16,13 @@
 namespace riven {
 
 inline namespace RIVEN_SIDE {
+
+/// How firm a prescribed field stands, from 0 to 1: one that reaches a node with next to none of its mass is no wall
+/// there, a cell ahead of where its matter ends.
+RIVEN_INLINE double firmness(double mass, double of_node) {
+  constexpr double none = 0.02, all = 0.1;
+  return std::clamp((mass / of_node - none) / (all - none), 0., 1.);
+}
 
 struct PrescribedFields {
   const std::uint8_t* mask;  ///< ContactSums::prescribed; null where no motion is prescribed beside cracks
@@ -35,7 +42,8 @@ struct PrescribedFields {
     Vec2 w;
     for (int f = 0; f < 2; ++f) {
       const unsigned held = of(slot[f]);
-      w += (1 / mass[f]) * Vec2{held & 1u ? 0. : 1., held & 2u ? 0. : 1.};
+      const double gives = 1 - firmness(mass[f], mass[0] + mass[1]);
+      w += (1 / mass[f]) * Vec2{held & 1u ? gives : 1., held & 2u ? gives : 1.};
     }
     return w;
   }
@@ -49,8 +57,10 @@ struct PrescribedFields {
       impulse -= kept;
       velocity = {held & 1u ? own.x : velocity.x, held & 2u ? own.y : velocity.y};
       const double share = stage == ContactStage::before ? early_impulse : stage == ContactStage::again ? 0 : 1;
-      resisted[slot] -= share * kept;
-      notes.add(ContactStage::after, index, n, slot, share * kept);
+      if (share > 0) {
+        resisted[slot] -= share * kept;
+        notes.add(ContactStage::after, index, n, slot, share * kept);
+      }
     }
     motion.change(slot, impulse, velocity, dt);
     notes.add(stage, index, n, slot, impulse);
@@ -66,6 +76,34 @@ RIVEN_INLINE double inverse_or_none(double w) {
 RIVEN_INLINE Vec2 reduced_masses(Vec2 yielding, Vec2 normal) {
   const double xx = normal.x * normal.x, yy = normal.y * normal.y;
   return {inverse_or_none(xx * yielding.x + yy * yielding.y), inverse_or_none(yy * yielding.x + xx * yielding.y)};
+}
+
+/// pair_impulse() of a touching_pair() where W differs along the axes; `velocity`: of approach, across and along. Faces
+/// stick if friction bears that, or slide one way or the other. Where only one component of their relative motion is
+/// free they slide as the other one has it, and friction is what those who prescribe that feel of it.
+RIVEN_INLINE PairImpulse coupled_impulse(const ContactPair& p, Vec2 yielding, Vec2 velocity) {
+  constexpr double none = 1e-6, at_rest = 1e-9, jams = 0.05;
+  const Vec2 n = p.normal;
+  const double nn = n.x * n.x * yielding.x + n.y * n.y * yielding.y, nt = n.x * n.y * (yielding.y - yielding.x);
+  const double tt = n.y * n.y * yielding.x + n.x * n.x * yielding.y, det = nn * tt - nt * nt;
+  const double across = velocity.x - p.across.bias;
+  if (!(nn > 0) || (p.unilateral && across <= 0))
+    return {0, 0};
+  double slope = 0;
+  if (p.friction > 0 && det > none * nn * tt) {
+    const double lambda = (tt * across - nt * velocity.y) / det, tau = (nn * velocity.y - nt * across) / det;
+    if (std::abs(tau) <= p.friction * (p.unilateral ? lambda : std::abs(lambda)))
+      return {lambda, tau};
+    slope = tau > 0 ? p.friction : -p.friction;
+  } else if (p.friction > 0) {
+    const double slides = velocity.y - nt / nn * across;
+    if (std::abs(slides) > at_rest * (std::abs(velocity.x) + std::abs(velocity.y)))
+      slope = slides > 0 ? p.friction : -p.friction;
+  }
+  const double w = across > 0 ? nn + slope * nt : nn - slope * nt, lambda = across / w;
+  if (!(w > jams * nn))  // friction would take more than all of what yields
+    return {across / nn, 0};
+  return {lambda, slope * std::abs(lambda)};
 }
 
 }  // namespace RIVEN_SIDE

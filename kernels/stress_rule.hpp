@@ -2,9 +2,8 @@
 // followed once for each block of particles, so that a pass is compiled once for all laws. On a device, whose blocks
 // are single particles, in line.
 //
-//   with_stress_rule<Averaged>(plan.law, s, f)   f(rule), where rule(particles, first, count, gradient, dt, seen)
-//   updates
-//       particles first .. first + count - 1 (stress_update.hpp)
+//   with_stress_rule<Averaged>(plan.law, s, f)   f(rule)
+//       rule(first, count, gradient, dt, seen) updates particles first .. first + count - 1 (stress_update.hpp)
 #pragma once
 #include "kernels/dispatch.hpp"
 #include "kernels/stress_update.hpp"

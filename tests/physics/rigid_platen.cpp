@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tests/physics/scene_gates.hpp"
 #include "tests/physics/scenes.hpp"
@@ -161,6 +162,45 @@ TEST(RigidPlaten, IsPushedAsideWhereItIsFree) {
     EXPECT_NEAR(aside, 1, 0.03);
     EXPECT_NEAR(first - apart(), 0, 0.01);
     EXPECT_NEAR(wedge_speed + ratio * block_speed, 0, 1e-9) << "momentum along x";
+  }
+}
+
+/// A block of 20 x 12 cells between a clamp and a platen whose border lies at `angle`, under the one and over the
+/// other. The platen rises by 0.05 cells within 8 s and then stands; sideways it is free. How far the energy that
+/// contact takes changes from there on, in which nothing moves, over the strain energy.
+double contact_creep(double angle, const ContactSettings& law) {
+  Scene s = empty_scene(1, {{-8, -10}, {length + 8, 24}});
+  s.transfer = Transfer::flip;
+  const double rise = length * std::tan(angle);
+  const Polygon platen{{{0, -4}, {length, -4}, {length, rise}, {0, 0}}};
+  const Polygon block{{{0, 0}, {length, rise}, {length, 18}, {0, 18}}};
+  s.bodies = {body("platen", platen), body("block", block)};
+  s.cracks = {crack("foot", {{-3, -3 * std::tan(angle)}, {length + 3, rise + 3 * std::tan(angle)}})};
+  s.contact = law;
+  s.grips = {grip_at_rest("clamp", Rectangle{{0, 18}, {length, 20}}), grip_at_rest("platen", platen)};
+  s.grips[1].velocity[0].reset();
+  s.grips[1].velocity[1] = TimeFunction{
+      0.05 / 4, [](double t) { return t < 8 ? 0.5 * (1 - std::cos(2 * std::numbers::pi * t / 8)) : 0; }, ""};
+  s.end_time = 40;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  while (m.state.clock.time < 10)
+    m.step();
+  const double first = m.state.ledger.energy.contact;
+  while (!m.finished())
+    m.step();
+  m.take_stock();
+  return (m.state.ledger.energy.contact - first) / m.state.ledger.energy.strain;
+}
+
+TEST(RigidPlaten, ThatIsFreeSidewaysTakesNoEnergyAtRest) {
+  const std::pair<double, ContactSettings> scenes[] = {{0, {ContactLaw::stick, 0, 0, 0}},
+                                                       {0.3, {ContactLaw::coulomb, 0.6, 0, 0}}};
+  for (const auto& [angle, law] : scenes) {
+    const double creep = contact_creep(angle, law);
+    gates::report(fmt::format("platen at {} that is free sideways: energy of contact at rest over strain", angle),
+                  creep, "0 +-0.01");
+    EXPECT_NEAR(creep, 0, 0.01) << angle;
   }
 }
 
