@@ -22,14 +22,16 @@ bool solid(const Scene& s, Vec2 p) {
   });
 }
 
-/// True when some point of the crack, looked at every `spacing`, lies in a body, and in the region if there is one.
+/// True when some point of the crack, looked at every `spacing`, lies in a body or along its edge, and in the region if
+/// there is one.
 bool meets_body(const Scene& s, const CrackLine& c, double spacing, const std::optional<Region>& region = {}) {
   for (size_t i = 1; i < c.points.size(); ++i) {
     const Vec2 a = c.points[i - 1], d = c.points[i] - a;
     const int n = static_cast<int>(std::ceil(norm(d) / spacing)) + 1;
+    const Vec2 aside = (0.05 * s.cell / norm(d)) * turned(d);
     for (int k = 0; k < n; ++k) {
       const Vec2 p = a + d * ((k + 0.5) / n);
-      if (solid(s, p) && (!region || contains(*region, p)))
+      if ((solid(s, p) || solid(s, p + aside) || solid(s, p - aside)) && (!region || contains(*region, p)))
         return true;
     }
   }

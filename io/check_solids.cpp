@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "io/checks.hpp"
 
@@ -63,7 +64,8 @@ std::pair<double, double> path(const std::optional<TimeFunction>& velocity, doub
   return {low, high};
 }
 
-/// True when some point lies in both bodies, looked at every half cell where they may meet.
+/// True when some point lies in both bodies, looked at every half cell where they may meet. Edges that they share, or
+/// that overlap by as little as what points were rounded to, do not count.
 bool overlap(const Scene& s, const Body& a, const Body& b) {
   const Rectangle p = bounds(a.region), q = bounds(b.region);
   const Vec2 low{std::max(p.lower.x, q.lower.x), std::max(p.lower.y, q.lower.y)};
@@ -77,11 +79,13 @@ bool overlap(const Scene& s, const Body& a, const Body& b) {
     return contains(body.region, x) &&
            std::none_of(body.holes.begin(), body.holes.end(), [&](const Region& hole) { return contains(hole, x); });
   };
+  const double aside = 0.01 * s.cell;
+  const Vec2 about[] = {{0, 0}, {aside, 0}, {-aside, 0}, {0, aside}, {0, -aside}};
   const int nx = steps(size.x), ny = steps(size.y);
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
       const Vec2 x = low + Vec2{size.x * (i + 0.5) / nx, size.y * (j + 0.5) / ny};
-      if (in(a, x) && in(b, x))
+      if (std::all_of(std::begin(about), std::end(about), [&](Vec2 d) { return in(a, x + d) && in(b, x + d); }))
         return true;
     }
   return false;

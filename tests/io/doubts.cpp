@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "core/error.hpp"
 #include "core/fracture/growth.hpp"
 #include "io/check_scene.hpp"
 #include "tests/physics/scene_gates.hpp"
@@ -129,6 +131,29 @@ TEST(Doubts, NameGripsThatHoldNothing) {
   expect_doubt(s, "grip top", "away from all bodies");
   s.grips[0].velocity[1] = TimeFunction{-15, {}, ""};  // by 1.5 mm, to the plate
   EXPECT_TRUE(doubts(s).empty());
+}
+
+// Points of the shared edge lie in both of them, or in none, by rounding.
+TEST(Doubts, AreNoneOfBodiesThatShareASlantedEdgeWithACrackAlongIt) {
+  Scene s = sound_scene();
+  s.grid = {{-25e-3, -25e-3}, {45e-3, 45e-3}};
+  s.grips.clear();
+  s.fracture.asked = false;
+  Body other = s.bodies[0];
+  other.name = "other";
+  s.bodies[0].region = Polygon{{{0, 0}, {10e-3, 10e-3}, {0, 20e-3}, {-10e-3, 10e-3}}};
+  other.region = Polygon{{{0, 0}, {10e-3, -10e-3}, {20e-3, 0}, {10e-3, 10e-3}}};
+  s.bodies.push_back(other);
+  s.cracks[0].points = {{-2e-3, -2e-3}, {12e-3, 12e-3}};
+  check_scene(s);
+  s.bodies.pop_back();
+  for (const auto& [from, to] : {std::pair{Vec2{-12e-3, 8e-3}, Vec2{2e-3, 22e-3}}, {{12e-3, 8e-3}, {-2e-3, 22e-3}}}) {
+    s.cracks[0].points = {from, to};  // along its upper edges
+    check_scene(s);
+  }
+  other.region = Polygon{{{0, 0}, {10e-3, -10e-3}, {20e-3, 0}, {9e-3, 11e-3}}};
+  s.bodies.push_back(other);
+  EXPECT_THROW(check_scene(s), Error) << "they overlap by up to a cell";
 }
 
 TEST(Doubts, NameGripsThatReachJustPastACrack) {
