@@ -156,6 +156,26 @@ TEST(Doubts, AreNoneOfBodiesThatShareASlantedEdgeWithACrackAlongIt) {
   EXPECT_THROW(check_scene(s), Error) << "they overlap by up to a cell";
 }
 
+TEST(Doubts, NameGapsBetweenBodiesAlongACrack) {
+  Scene s = sound_scene();
+  s.fracture.asked = false;
+  Body upper = s.bodies[0];
+  upper.name = "upper";
+  const auto with_gap = [&](double gap) {
+    s.bodies.resize(1);
+    s.bodies[0].region = Rectangle{{0, 0}, {40e-3, 20e-3}};
+    upper.region = Rectangle{{0, 20e-3 + gap}, {40e-3, 40e-3}};
+    s.bodies.push_back(upper);
+    s.cracks[0].points = {{-2e-3, 20e-3}, {42e-3, 20e-3}};
+    return s;
+  };
+  expect_doubt(with_gap(0.5e-3), "crack edge", "a gap of up to 0.5 mm lies between upper and plate");
+  for (const double none : {0., 3e-3})
+    EXPECT_TRUE(doubts(with_gap(none)).empty()) << none << ": shut, and far apart";
+  s.contact.law = ContactLaw::ignored;
+  EXPECT_TRUE(doubts(with_gap(0.5e-3)).empty()) << "no contact";
+}
+
 TEST(Doubts, NameGripsThatReachJustPastACrack) {
   Scene s = sound_scene();
   Grip side;
