@@ -51,7 +51,7 @@ class FieldClaims {
   unsigned all_of(int node) const { return (1u << slots_.count(node)) - 1; }
   /// Those of a node's fields that have less mass than `most`, kg.
   template <class Real>
-  unsigned light_of(int node, const Real* mass, double most) const {
+  unsigned light_of(int node, const exec::Array<Real>& mass, double most) const {
     unsigned fields = 0;
     for (int f = 0; f < slots_.count(node); ++f)
       fields |= (mass[slots_.of(node, f)] < most ? 1u : 0u) << f;
@@ -138,7 +138,6 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const State<Real, 
                 const ConstraintOwner& owner) {
   constexpr double least = 0.01;
   const Lattice& l = s.grid.lattice;
-  const Real* mass = s.grid.mass.data();
   AxisSetting<double> a{grip.half, 1 / (4 * grip.half), l.wall_lower[0], l.wall_upper[0]}, b = a;
   b.wall_lower = l.wall_lower[1];
   b.wall_upper = l.wall_upper[1];
@@ -156,7 +155,7 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const State<Real, 
           continue;
         unsigned fields = sight.fields_of(p, &first, node);
         if (!weighs)
-          fields &= claims.light_of(node, mass, weight * s.particle_mass / least);
+          fields &= claims.light_of(node, s.grid.mass, weight * s.particle_mass / least);
         if (fields != 0 || weighs)
           claims.claim(node, fields, mask, grip.owner);
       }

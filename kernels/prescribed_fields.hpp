@@ -72,10 +72,18 @@ RIVEN_INLINE double inverse_or_none(double w) {
   return w > 0 ? 1 / w : 0;
 }
 
+/// n.W n, n.W t and t.W t.
+struct Yield {
+  double nn, nt, tt;
+
+  RIVEN_INLINE Yield(Vec2 W, Vec2 n)
+      : nn(n.x * n.x * W.x + n.y * n.y * W.y), nt(n.x * n.y * (W.y - W.x)), tt(n.y * n.y * W.x + n.x * n.x * W.y) {}
+};
+
 /// Masses of the relative motion across (x) and along (y).
 RIVEN_INLINE Vec2 reduced_masses(Vec2 yielding, Vec2 normal) {
-  const double xx = normal.x * normal.x, yy = normal.y * normal.y;
-  return {inverse_or_none(xx * yielding.x + yy * yielding.y), inverse_or_none(yy * yielding.x + xx * yielding.y)};
+  const Yield w(yielding, normal);
+  return {inverse_or_none(w.nn), inverse_or_none(w.tt)};
 }
 
 /// pair_impulse() of a touching_pair() where W differs along the axes; `velocity`: of approach, across and along. Faces
@@ -83,9 +91,8 @@ RIVEN_INLINE Vec2 reduced_masses(Vec2 yielding, Vec2 normal) {
 /// free they slide as the other one has it, and friction is what those who prescribe that feel of it.
 RIVEN_INLINE PairImpulse coupled_impulse(const ContactPair& p, Vec2 yielding, Vec2 velocity) {
   constexpr double none = 1e-6, at_rest = 1e-9, jams = 0.05;
-  const Vec2 n = p.normal;
-  const double nn = n.x * n.x * yielding.x + n.y * n.y * yielding.y, nt = n.x * n.y * (yielding.y - yielding.x);
-  const double tt = n.y * n.y * yielding.x + n.x * n.x * yielding.y, det = nn * tt - nt * nt;
+  const auto [nn, nt, tt] = Yield(yielding, p.normal);
+  const double det = nn * tt - nt * nt;
   const double across = velocity.x - p.across.bias;
   if (!(nn > 0) || (p.unilateral && across <= 0))
     return {0, 0};
