@@ -154,7 +154,8 @@ std::vector<ErrorLaw> fit_errors(const std::vector<Rung>& ladder, const std::vec
       runs.push_back(sampled(t, t.find(c, "--result")));
     const double s = scale[tables.back().units[tables.back().find(c, "--result")]];
     const double d12 = distance(runs[0], runs[1]) / s, d23 = distance(runs[1], runs[2]) / s;
-    if (std::isfinite(d12) && std::isfinite(d23) && d23 > 0)
+    constexpr double rounding = 1e-9;  // what symmetry makes 0 is not in the last digits
+    if (std::isfinite(d12) && std::isfinite(d23) && d23 > rounding)
       laws.push_back(law_of(c, ladder, d12, d23));
   }
   return laws;

@@ -31,7 +31,8 @@ struct ErrorLaw {
   double error(double cell) const;
 };
 
-/// What the ladder's histories say of each column; columns that stay 0 are left out. `histories`: their files.
+/// What the ladder's histories say of each column; columns that stay 0 but for rounding are left out. `histories`:
+/// their files.
 std::vector<ErrorLaw> fit_errors(const std::vector<Rung>& ladder, const std::vector<std::string>& histories,
                                  const std::vector<std::string>& columns);
 

@@ -65,10 +65,11 @@ class AdviseLaws : public testing::Test {
       files.push_back((folder_ / fmt::format("{}.csv", r.cell)).string());
       std::ofstream out(files.back());
       out.precision(17);
-      out << "time [s],tip J [J/m^2],tip K_I [Pa m^0.5],tip K_II [Pa m^0.5],none [J]\n";
+      out << "time [s],tip J [J/m^2],tip K_I [Pa m^0.5],tip K_II [Pa m^0.5],none [Pa m^0.5]\n";
       for (int n = 0; n <= 40; ++n) {
         const double t = 0.025 * n;
-        out << t << ',' << t * (1 + a * std::pow(r.cell, p)) << ",100," << 0.1 * r.cell << ",0\n";
+        out << t << ',' << t * (1 + a * std::pow(r.cell, p)) << ",100," << 0.1 * r.cell << ',' << 1e-14 * r.cell
+            << '\n';
       }
     }
     return files;
