@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/state/keep_off_cracks.hpp"
-#include "core/state/lay_points.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
 #include "kernels/rigid_sight.hpp"
@@ -14,18 +12,6 @@
 namespace riven {
 
 namespace {
-
-/// Adds a component of a node to those fixed, or hands it to a later owner.
-void claim_node(std::vector<Constraint>& fixed, exec::Array<int>& at_node, int node, int axis, int owner) {
-  int& at = at_node[node];
-  if (at == 0) {
-    fixed.push_back({node, node, 0, {-1, -1}});
-    at = static_cast<int>(fixed.size());
-  }
-  Constraint& c = fixed[static_cast<size_t>(at - 1)];
-  c.mask = static_cast<std::uint8_t>(c.mask | (1u << axis));
-  c.owner[axis] = static_cast<std::int16_t>(owner);
-}
 
 /// The list of a step in the making. A node that is claimed gets an entry for each of its fields.
 class FieldClaims {
@@ -74,27 +60,6 @@ class FieldClaims {
   exec::Array<int>& at_node_;
   std::vector<Constraint> list_;
 };
-
-/// Node numbers along one axis that lie in [lower, upper]; a range that touches a wall goes on behind it.
-std::pair<int, int> node_range(const Lattice& l, int axis, double lower, double upper) {
-  const double origin = axis == 0 ? l.origin.x : l.origin.y;
-  int first = static_cast<int>(std::ceil((lower - origin) / l.h - 1e-6));
-  int last = static_cast<int>(std::floor((upper - origin) / l.h + 1e-6));
-  if (first <= l.wall_lower[axis])
-    first = 0;
-  if (last >= l.wall_upper[axis])
-    last = (axis == 0 ? l.nx : l.ny) - 1;
-  return {std::max(first, 0), std::min(last, (axis == 0 ? l.nx : l.ny) - 1)};
-}
-
-void claim_box(std::vector<Constraint>& fixed, exec::Array<int>& at_node, const Lattice& l, std::pair<int, int> x,
-               std::pair<int, int> y, const ConstraintOwner& owner, int number) {
-  for (int j = y.first; j <= y.second; ++j)
-    for (int i = x.first; i <= x.second; ++i)
-      for (int axis = 0; axis < 2; ++axis)
-        if (owner.velocity[axis])
-          claim_node(fixed, at_node, j * l.nx + i, axis, number);
-}
 
 /// The fields of a node that a box of fixed nodes holds: those on the sides of cracks on which it lies, within reach of
 /// a particle and not all but on a crack; none for a line along a crack, or a point on it.
@@ -165,51 +130,6 @@ void claim_grip(FieldClaims& claims, const RigidSight& sight, const State<Real, 
 }  // namespace
 
 template <class Real>
-void make_constraints(const Scene& scene, State<Real, 2>& s) {
-  Constraints& c = s.constraints;
-  const Lattice& l = s.grid.lattice;
-  c.at_node.resize(l.nodes());
-  const auto add_owner = [&](std::string name, const std::optional<TimeFunction>* velocity) -> int {
-    ConstraintOwner o;
-    o.name = std::move(name);
-    o.velocity[0] = velocity[0];
-    o.velocity[1] = velocity[1];
-    c.owners.push_back(std::move(o));
-    return static_cast<int>(c.owners.size()) - 1;
-  };
-  int planes[2] = {0, 0};  // so far, across each axis
-  const std::pair<int, int> all_x{0, l.nx - 1}, all_y{0, l.ny - 1};
-  for (const SymmetryPlane& plane : scene.symmetry) {
-    std::optional<TimeFunction> velocity[2];
-    velocity[plane.axis] = TimeFunction{};
-    std::string name = plane.axis == 0 ? "symmetry x" : "symmetry y";
-    if (planes[plane.axis]++ > 0)
-      name += " " + std::to_string(planes[plane.axis]);
-    const int owner = add_owner(std::move(name), velocity);
-    const auto at = node_range(l, plane.axis, plane.position, plane.position);
-    auto behind =
-        plane.solid > 0 ? std::pair{0, at.second} : std::pair{at.first, plane.axis == 0 ? l.nx - 1 : l.ny - 1};
-    claim_box(c.fixed, c.at_node, l, plane.axis == 0 ? behind : all_x, plane.axis == 0 ? all_y : behind,
-              c.owners.back(), owner);
-  }
-  for (const FixedNodes& f : scene.fixed) {
-    const int owner = add_owner(f.name, f.velocity);
-    claim_box(c.fixed, c.at_node, l, node_range(l, 0, f.box.lower.x, f.box.upper.x),
-              node_range(l, 1, f.box.lower.y, f.box.upper.y), c.owners.back(), owner);
-  }
-  for (const Constraint& k : c.fixed)
-    c.at_node[k.node] = 0;
-  const KeepOffCracks keep_off(s.cracks, l);
-  for (const Grip& g : scene.grips) {
-    const int owner = add_owner(g.name, g.velocity);
-    std::vector<Vec2> points = lay_points(g.region, {}, l, g.particles_per_cell);
-    for (Vec2& x : points)
-      x = keep_off.from(x, [&](Vec2 at) { return contains(g.region, at); });
-    c.grips.push_back({owner, std::move(points), 0.5 / g.particles_per_cell});
-  }
-}
-
-template <class Real>
 void list_constraints(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   Constraints& c = s.constraints;
   for (ConstraintOwner& o : c.owners)
@@ -260,9 +180,7 @@ void mark_prescribed(const Constraints& constraints, const CrackFields& fields, 
   }
 }
 
-#define RIVEN_LIST_CONSTRAINTS(Real)                             \
-  template void make_constraints(const Scene&, State<Real, 2>&); \
-  template void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
+#define RIVEN_LIST_CONSTRAINTS(Real) template void list_constraints(const Scene&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_LIST_CONSTRAINTS)
 #undef RIVEN_LIST_CONSTRAINTS
 

@@ -1,13 +1,9 @@
-// Fixed lines, symmetry planes and grips as a list of the velocity fields whose motion they prescribe.
+// What fixed nodes, symmetry planes and grips hold in a step, as a list of velocity fields.
 #pragma once
 #include "core/state/state.hpp"
 #include "kernels/contact_sums.hpp"
 
 namespace riven {
-
-/// Turns the scene's fixed lines, symmetry planes and grips into lists of nodes and rigid particles.
-template <class Real>
-void make_constraints(const Scene&, State<Real, 2>&);
 
 /// Lists the fields of this step and evaluates the prescribed velocities at t and t + dt. Beside cracks what lies on
 /// one side of them holds the fields of that side. The fields of particles must be known.

@@ -5,7 +5,7 @@
 #include "core/state/draw_mouths.hpp"
 #include "core/state/make_state.hpp"
 #include "kernels/dispatch.hpp"
-#include "kernels/list_constraints.hpp"
+#include "kernels/make_constraints.hpp"
 #include "kernels/make_loads.hpp"
 #include "kernels/report_trouble.hpp"
 #include "kernels/sort_particles.hpp"
