@@ -106,11 +106,14 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   print_tips(s.tips);
   if (!s.fragments.empty())
     print_growth(s);
-  for (const Summary::Warning& w : s.warnings)
+  for (const Summary::Warning& w : s.warnings) {
     fmt::print("warning: {} ({} times{})\n", w.kind, w.count,
                std::isnan(w.first_place.x)
                    ? ""
                    : fmt::format(", first at ({:.4g}, {:.4g}) m", w.first_place.x, w.first_place.y));
+    if (!w.advice.empty())
+      fmt::print("  try:   {}\n", w.advice);
+  }
   for (const Retry& r : s.retries)
     fmt::print("went back from step {} to step {}, to go on with a CFL number of {:.4g}\n", r.step, r.back_to, r.cfl);
   fmt::print("results in {0}; a picture of them: riven picture {0}\n", folder.string());

@@ -6,10 +6,11 @@
 
 namespace riven {
 
-/// All in m. The normal part is positive where the upper surface has moved away from the lower one, along the
-/// left-hand normal of the crack plane; sliding is along the direction from the crack's first point to its last.
+/// All in m. The normal part is positive where the faces are apart, by a gap at first or because the upper surface has
+/// moved away from the lower one, along the left-hand normal of the crack plane; sliding is along the direction from
+/// the crack's first point to its last.
 struct CrackOpening {
-  Vec2 vector;  ///< upper - lower
+  Vec2 vector;  ///< by which the upper surface has moved from the lower one
   double normal = 0, sliding = 0;
 };
 

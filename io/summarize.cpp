@@ -8,6 +8,7 @@
 #include "core/state/monitors.hpp"
 #include "io/peak_memory.hpp"
 #include "io/tip_report.hpp"
+#include "io/what_helps.hpp"
 
 namespace riven {
 
@@ -16,35 +17,40 @@ namespace {
 template <class Real>
 std::vector<Summary::Warning> warnings(const SimulationOf<Real>& m) {
   std::vector<Summary::Warning> list;
-  const CrackFields& f = m.state.fields;
-  if (f.warning_both_sides > 0)
-    list.push_back({"a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0]});
-  if (f.warning_fourth_crack > 0)
-    list.push_back({"a node sees more than three cracks", f.warning_fourth_crack, f.warning_place[1]});
-  const long capped = m.contact_before.capped + m.contact_after.capped + m.contact_again.capped;
-  if (capped > 0)
-    list.push_back({"contact at a node was not solved within the limit of sweeps", capped, nowhere});
-  const FractureReport& j = m.fracture;
-  const auto say = [&](const char* kind, long count, Vec2 place) {
+  const auto say = [&](const char* kind, long count, Vec2 place, std::string_view advice) {
     if (count > 0)
-      list.push_back({kind, count, place});
+      list.push_back({kind, count, place, what_helps(advice, m.scene)});
   };
+  const CrackFields& f = m.state.fields;
+  say("a node sees one crack from both sides", f.warning_both_sides, f.warning_place[0],
+      "smaller cells where a crack turns back on itself, or its faces overlap");
+  say("a node sees more than three cracks", f.warning_fourth_crack, f.warning_place[1],
+      "smaller cells, or fewer cracks there: the fourth parts nothing at this node");
+  ContactReport contact = m.contact_before;
+  contact += m.contact_after;
+  contact += m.contact_again;
+  say("faces in contact at a node did not settle: what they exchange there is not exact", contact.capped,
+      contact.capped > 0 ? m.state.grid.lattice.position(contact.capped_node) : nowhere,
+      "smaller cells, or fewer cracks there; less friction");
   for (const auto& [which, name] : Names<Watched>::table) {
     const Monitor& watched = monitor(m.state.monitors, which);
-    say(text_of(which).what, watched.beyond, watched.first_place);
+    say(text_of(which).what, watched.beyond, watched.first_place, text_of(which).advice);
   }
-  say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0]);
-  say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1]);
-  say("a J contour leaves the solid however small", j.unsound, j.place[2]);
+  const FractureReport& j = m.fracture;
+  say("two crack tips are too near to each other for a J contour between them", j.in_cell, j.place[0],
+      "smaller cells; J there is that of both");
+  say("a J contour left the solid and was drawn in", j.drawn_in, j.place[1],
+      "nothing, if the tip has two cells of solid around it; else a smaller fracture.contour, or smaller cells");
+  say("a tip is so near to an edge that no J contour lies in the solid, as where a crack cuts through", j.unsound,
+      j.place[2], "nothing, if the crack is about to cut through; else smaller cells");
   say("a bend next to the tip is sharp or has faces pressed together: J and K are not resolved there", j.bent,
-      j.place[3]);
+      j.place[3], "smaller cells, until the bend is a few of them away");
   say("another crack crosses, or the tip's own begins on it, less than 1.5 cells behind a tip: J and K are not "
-      "resolved "
-      "there",
-      j.cut, j.place[5]);
+      "resolved there",
+      j.cut, j.place[5], "smaller cells");
   say("a crack grew to where its J contour takes in another material or thickness: J and K are no longer those of its "
       "tip alone",
-      j.mixed, j.place[4]);
+      j.mixed, j.place[4], "a smaller fracture.contour; smaller cells");
   return list;
 }
 

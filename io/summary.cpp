@@ -109,7 +109,8 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   j["momentum_error"] = number(s.momentum_error);
   j["angular_momentum_error"] = number(s.angular_momentum_error);
   j["warnings"] = by_name(s.warnings, &Summary::Warning::kind, [](const Summary::Warning& w) {
-    return Json{{"count", w.count}, {"first_place", w.count > 0 ? point(w.first_place) : Json(nullptr)}};
+    return Json{
+        {"count", w.count}, {"first_place", w.count > 0 ? point(w.first_place) : Json(nullptr)}, {"try", w.advice}};
   });
   j["watched"] = by_name(s.watched, &Summary::Watched::figure, [](const Summary::Watched& w) {
     return Json{{"worst", number(w.worst)}, {"unit", w.unit}, {"place", point(w.place)}};

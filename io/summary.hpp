@@ -32,6 +32,7 @@ struct Summary {
     std::string kind;
     long count = 0;
     Vec2 first_place;  ///< m; NaN where none is known
+    std::string advice;
   };
   struct Watched {
     std::string figure;

@@ -1,5 +1,5 @@
 // Contact between the fields of every node that a crack passes (laws: core/laws/contact.hpp, solution of a node:
-// core/laws/contact_node.hpp). With A, B and C the node's cracks, field = 1 (crosses A) + 2 (crosses B) + 4 (crosses
+// core/laws/contact_sweep.hpp). With A, B and C the node's cracks, field = 1 (crosses A) + 2 (crosses B) + 4 (crosses
 // C):
 //   fields that differ by 1 meet across A with A's normal, by 2 across B with B's and by 4 across C with C's (of two
 //   cracks: J.A. Nairn and Y.E. Aimene, Modeling Multiple Crack Propagation in the Material Point Method, section
@@ -15,7 +15,9 @@
 //                 velocity that closes it (J.A. Nairn, CMES 92 (2013) 271-299; J.A. Nairn, S.G. Bardenhagen, G.D.
 //                 Smith, Comp. Part. Mech. 5 (2018) 285-296). The gap compares current and first mean positions,
 //                 delta_n = n.(x_below - x_above) - n0.(X_below - X_above),
-//                 0 for every rigid motion, the jump of displacement for small rotations, negative in compression.
+//                 X where particles would lie at first if the solids touched across the crack
+//                 (core/state/first_gaps.hpp): the gap at first for every rigid motion of both solids as one, and from
+//                 there on the jump of displacement for small rotations; negative in compression.
 //                 Beyond 0.2 cells nothing touches: no face closes that far in a stable step, but a field of next to no
 //                 mass may have any velocity.
 // Stopping faces at a distance instead would let them creep together by one stop after another, each a loss of energy;
@@ -32,6 +34,7 @@
 // go.
 #pragma once
 #include <algorithm>
+#include <limits>
 
 #include "core/exec/parallel.hpp"
 #include "core/scene/scene.hpp"
@@ -46,13 +49,14 @@ namespace riven {
 
 /// What contact did, summed over nodes in a fixed order.
 struct ContactReport {
-  long touching = 0;       ///< pairs of fields that pushed or held each other
-  long apart = 0;          ///< pairs whose faces may part and did not touch
-  long early = 0;          ///< nodes that touched although V_rel < V_sep (where volumes were summed)
-  long pressing = 0;       ///< nodes that see one crack and pressed in the momentum update (displacement)
-  long capped = 0;         ///< nodes whose pairs were not solved within the limit of sweeps
-  double penetration = 0;  ///< m, largest -delta_n of a touching pair (displacement)
-  double gap = 0;          ///< m, largest delta_n at which a pair pushed (displacement)
+  long touching = 0;  ///< pairs of fields that pushed or held each other
+  long apart = 0;     ///< pairs whose faces may part and did not touch
+  long early = 0;     ///< nodes that touched although V_rel < V_sep (where volumes were summed)
+  long pressing = 0;  ///< nodes that see one crack and pressed in the momentum update (displacement)
+  long capped = 0;    ///< nodes whose pairs were not solved within the limit of sweeps
+  int capped_node = std::numeric_limits<int>::max();  ///< the first of them, by number
+  double penetration = 0;                             ///< m, largest -delta_n of a touching pair (displacement)
+  double gap = 0;                                     ///< m, largest delta_n at which a pair pushed (displacement)
 
   RIVEN_FN ContactReport& operator+=(const ContactReport& o) {
     touching += o.touching;
@@ -60,6 +64,7 @@ struct ContactReport {
     early += o.early;
     pressing += o.pressing;
     capped += o.capped;
+    capped_node = std::min(capped_node, o.capped_node);
     penetration = std::max(penetration, o.penetration);
     gap = std::max(gap, o.gap);
     return *this;

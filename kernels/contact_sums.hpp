@@ -1,7 +1,7 @@
 // What the detection of contact needs to know at each node that holds cracks, besides mass and momentum: per field the
 // area in the plane (the nodal volume of two dimensions) and the mean positions of its particles,
 //   A_i,j = sum_p A_p S_ip,    m_i,j x_i,j = sum_p m_p S_ip x_p,    m_i,j X_i,j = sum_p m_p S_ip X_p   (X first
-//   position)
+//   position, with first gaps closed)
 // (A: J.A. Nairn, CMES 4 (2003), eqs. 8, 9 and 27; positions: J.A. Nairn, CMES 92 (2013) 271-299, who extrapolates
 // displacements; the pair of positions stays exact when the body turns), and per crack the length times thickness and
 // the opening that belong to the node,
@@ -73,6 +73,9 @@ NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattic
                          ContactSums& sums) {
   const Particles<Real, 2>& p = of.particles;
   const bool asked = !sums.place.empty() || !sums.volume.empty();
+  const auto first = [&](int axis) -> const exec::Array<double>& {
+    return p.closed[axis].empty() ? p.x0[axis] : p.closed[axis];
+  };
   return {of.shape,
           lattice,
           {exec::data(p.x[0]),
@@ -81,8 +84,8 @@ NodeSums<Real> node_sums(const ContactParticles<Real>& of, const Lattice& lattic
            lattice.origin.y,
            1 / lattice.h,
            {exec::data(of.domains), exec::data(p.body), of.domains.size() == 1}},
-          exec::data(p.x0[0]),
-          exec::data(p.x0[1]),
+          exec::data(first(0)),
+          exec::data(first(1)),
           exec::data(p.mass),
           p.J.empty() ? nullptr : exec::data(p.J),
           {exec::data(p.F[0]), exec::data(p.F[1]), exec::data(p.F[2]), exec::data(p.F[3])},

@@ -9,7 +9,7 @@ inline namespace RIVEN_SIDE {
 /// See Cracks.
 struct CrackView {
   const int *crack, *start;
-  const Vec2 *plane, *upper, *lower;
+  const Vec2 *plane, *upper, *lower, *gap;  ///< gap: null where there are none
   int points;
 
   RIVEN_INLINE int end_point(int c, bool last) const { return last ? start[c + 1] - 1 : start[c]; }
@@ -18,7 +18,8 @@ struct CrackView {
 
 inline CrackView crack_view(const Cracks& c) {
   return {exec::data(c.crack), exec::data(c.start), exec::data(c.plane),
-          exec::data(c.upper), exec::data(c.lower), c.points()};
+          exec::data(c.upper), exec::data(c.lower), c.gap.empty() ? nullptr : exec::data(c.gap),
+          c.points()};
 }
 
 }  // namespace RIVEN_SIDE

@@ -174,6 +174,7 @@ void each_member(ContactReport& r, F&& f) {
   f("apart", r.apart);
   f("early", r.early);
   f("capped", r.capped);
+  f("capped_node", r.capped_node);
   f("penetration", r.penetration);
   f("gap", r.gap);
 }
@@ -220,6 +221,7 @@ void visit_particles(Particles<Real, 2>& p, Visitor& f) {
   all("stress", p.stress);
   f.fixed("particles/mass", p.mass);
   all("first_position", p.x0);
+  all("closed_position", p.closed);
   f.fixed("particles/body", p.body);
   f.fixed("particles/id", p.id);
   f.fixed("particles/tile_start", p.tiles.start);
@@ -240,6 +242,7 @@ void visit_cracks(Cracks& c, CrackFields& fields, Visitor& f) {
   f.growing("cracks/lower_velocity", c.lower_velocity);
   f.growing("cracks/first_plane", c.plane0);
   f.growing("cracks/density", c.density);
+  f.growing("cracks/gap", c.gap);
   f.growing("cracks/jump", c.jump);
   f.growing("cracks/in_solid", c.in_solid);
   f.growing("cracks/cohesive", c.cohesive);

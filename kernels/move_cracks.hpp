@@ -8,9 +8,10 @@
 //   xpic   (v + (v~ - v_s) / 2) dt, v_s := v~   (XPIC(1); v_s starts as v)
 //   pic    v~ dt                                (first order)
 // and the plane by the mean of both surfaces' moves, or with the centre of mass: the same sums over all fields of each
-// node, moved as in flip. A surface that finds no mass moves with the plane; a point where none is found moves as if it
-// were fixed to the nearest point of its crack that finds some, so that the part of a crack outside of its body stays
-// in line with it and never cuts it elsewhere.
+// node, moved as in flip. Across a gap (Cracks::gap) the surfaces stand for the faces of the solids, moves are looked
+// up there, and the plane keeps its place between them, so that it lies where they meet. A surface that finds no mass
+// moves with the plane; a point where none is found moves as if it were fixed to the nearest point of its crack that
+// finds some, so that the part of a crack outside of its body stays in line with it and never cuts it elsewhere.
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/crack_fields.hpp"

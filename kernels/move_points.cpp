@@ -57,6 +57,15 @@ class SoundMass {
   double least_, most_ = 0;
 };
 
+bool has_gap(const Cracks& cracks, long k) {
+  return !cracks.gap.empty() && cracks.gap[k].x + cracks.gap[k].y > 0;
+}
+
+/// How much of the upper surface's move is in that of the plane: as far as it is from the lower one.
+double share_of_upper(const Cracks& cracks, long k) {
+  return has_gap(cracks, k) ? cracks.gap[k].y / (cracks.gap[k].x + cracks.gap[k].y) : 0.5;
+}
+
 /// The moves of point k by what was found for it with no less mass than is sound.
 Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rules, double dt, long k, Cracks& cracks) {
   const auto kept = [](const PointMotion& m, double least) { return m.mass < least ? PointMotion{} : m; };
@@ -76,10 +85,11 @@ Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rul
     *up_velocity = any.after(dt);
   if (xpic && !has_low)
     *low_velocity = any.after(dt);
-  m.plane = has_up && has_low ? 0.5 * (m.upper + m.lower) : has_up ? m.upper : m.lower;
+  const double of_upper = share_of_upper(cracks, k);
+  m.plane = has_up && has_low ? of_upper * m.upper + (1 - of_upper) * m.lower : has_up ? m.upper : m.lower;
   m.angle = dt * (has_up && has_low ? 0.5 * (up.spin + low.spin) : up.spin + low.spin);
   m.known = has_up || has_low;
-  if (all.mass > 0) {
+  if (all.mass > 0 && !has_gap(cracks, k)) {
     m.plane = surface_move(all, SurfaceUpdate::flip, dt, true, nullptr);
     m.angle = dt * all.spin;
     m.known = true;

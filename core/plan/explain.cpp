@@ -85,6 +85,8 @@ std::vector<EffectNote> explain(const Scene& s, const Plan& p) {
   std::vector<EffectNote> notes{
       {"cracks", p.cracks, p.cracks ? counted(s.cracks.size(), "crack") : "no [[crack]]"},
       {"contact", p.contact, why_contact(s, p)},
+      {"first gaps", p.first_gaps,
+       p.first_gaps ? "solids start apart along a crack" : "no solids start apart along a crack"},
       {"imperfect interface", p.contact_area, p.contact_area ? "faces held by springs" : "no interface law"},
       {"J", p.fracture, why_fracture(s, p)},
       {"growth", p.growth, why_growth(s, p)},

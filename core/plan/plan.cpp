@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/scene/names.hpp"
+#include "core/state/first_gaps.hpp"
 #include "core/state/make_tips.hpp"
 
 namespace riven {
@@ -69,6 +70,7 @@ Plan make_plan(const Scene& scene) {
     }
   }
   p.contact_waits &= p.contact;
+  p.first_gaps = p.cracks && starts_apart(scene);
   for (int c = 0; c < static_cast<int>(scene.cracks.size()); ++c)
     p.growth |= growth_rule(scene, c) != nullptr;
   p.fracture = p.growth || (p.cracks && scene.fracture.asked);
@@ -95,6 +97,7 @@ std::vector<std::string> Plan::effects() const {
   };
   say(cracks, "cracks");
   say(contact, contact_waits ? "contact when faces close" : "contact");
+  say(first_gaps, "first gaps");
   say(contact_area, "imperfect interface");
   say(fracture, "J");
   say(growth, "growth");

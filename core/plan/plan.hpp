@@ -31,6 +31,7 @@ struct Plan {
   bool contact_slides = false;    ///< and slide: neither bonded nor held by an interface
   bool contact_volume = false;    ///< detection by volume, or interpenetration statistics, asks for nodal volumes
   bool contact_position = false;  ///< detection by displacement, or an interface law, asks for positions
+  bool first_gaps = false;        ///< solids that meet across a crack start apart (displacement)
   bool contact_waits = false;     ///< contact.when = "auto": tried now and then until faces touch
   bool contact_area = false;      ///< an interface law asks for the length of crack at each node
   bool fracture = false;          ///< J and K at every tip

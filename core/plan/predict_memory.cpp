@@ -34,6 +34,8 @@ double bytes_of_particle(const Plan& p, double real) {
   bytes += sizeof(double) * (p.keeps_F() ? 4 : 1);
   if (p.first_positions())
     bytes += position;
+  if (p.first_gaps)
+    bytes += position;
   if (p.cracks)
     bytes += sizeof(std::uint32_t);
   return bytes;

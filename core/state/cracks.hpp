@@ -41,6 +41,7 @@ struct Cracks {
   bool velocities_known = false;                     ///< set by the first move; until then surfaces start with the grid
   exec::Array<Vec2> plane0;                          ///< [points] where the plane was when the point was made
   exec::Array<Vec2> density;  ///< [points] kg/m^3, above (x) and below (y); empty where bodies have the same
+  exec::Array<Vec2> gap;  ///< [points] m, to the solids above (x) and below (y) at first; empty where there are none
   /// [points] of the segment that starts at a point: jump of displacement across an imperfect interface, along the
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;
@@ -85,7 +86,7 @@ struct Cracks {
     some(self.crack);
     some(self.serial);
     for (auto* a : {&self.plane, &self.upper, &self.lower, &self.upper_velocity, &self.lower_velocity, &self.plane0,
-                    &self.density, &self.jump})
+                    &self.density, &self.gap, &self.jump})
       some(*a);
     some(self.in_solid);
     some(self.cohesive);

@@ -31,4 +31,11 @@ std::vector<Vec2> lay_points(const Region& region, const std::vector<Region>& ho
   return points;
 }
 
+double least_particle_distance(const Scene& scene) {
+  double least = scene.cell;
+  for (const Body& b : scene.bodies)
+    least = std::min(least, scene.cell / b.particles_per_cell);
+  return least;
+}
+
 }  // namespace riven

@@ -12,4 +12,7 @@ namespace riven {
 std::vector<Vec2> lay_points(const Region& region, const std::vector<Region>& holes, const Lattice& lattice,
                              int per_cell);
 
+/// Between neighbouring particles of the finest body, m.
+double least_particle_distance(const Scene& scene);
+
 }  // namespace riven

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/state/bodies_at_cracks.hpp"
+#include "core/state/first_gaps.hpp"
 #include "core/state/junctions.hpp"
 #include "core/state/keep_off_cracks.hpp"
 #include "core/state/lay_points.hpp"
@@ -134,10 +135,9 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
     s.particle_mass = std::max(s.particle_mass, seed.mass);
   }
   if (plan.cracks) {
-    double finest = scene.cell;
-    for (const Body& b : scene.bodies)
-      finest = std::min(finest, scene.cell / b.particles_per_cell);
-    s.cracks = make_cracks(scene, finest);
+    s.cracks = make_cracks(scene, least_particle_distance(scene));
+    if (plan.first_gaps)
+      s.cracks.gap = first_gaps(scene, s.cracks);
     tie_from_start(scene, s.cracks);
     lay_densities(scene, s.cracks);
     lay_in_solid(scene, s.cracks);
@@ -160,6 +160,16 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   if (plan.first_positions())
     for (int d = 0; d < 2; ++d)
       p.x0[d] = p.x[d];
+  if (plan.first_gaps) {
+    for (auto& a : p.closed)
+      a.resize(n);
+    const ClosedGaps gaps(s.cracks, scene.cell);
+    for (long i = 0; i < n; ++i) {
+      const Vec2 x = gaps.place({p.x[0][i], p.x[1][i]});
+      p.closed[0][i] = x.x;
+      p.closed[1][i] = x.y;
+    }
+  }
   if (plan.fracture) {
     s.tips = make_tips(scene);
     s.readings.assign(scene.readings.size(), s.tips);
@@ -207,6 +217,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: stress", p.stress[0], p.stress[1], p.stress[2]);
   add("particles: mass", p.mass);
   add("particles: first position", p.x0[0], p.x0[1]);
+  add("particles: closed position", p.closed[0], p.closed[1]);
   add("particles: body", p.body);
   add("particles: id", p.id);
   const CrackFields& f = s.fields;

@@ -34,6 +34,7 @@ struct Particles {
   exec::Array<Real> stress[symmetric];  ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
   exec::Array<Real> mass;               ///< kg
   exec::Array<double> x0[Dim];          ///< first position, m (displacement-based contact, probes)
+  exec::Array<double> closed[Dim];      ///< where it would be at first with gaps closed, m (first_gaps.hpp)
   exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
   exec::Array<int> id;                  ///< stable number, 0 .. n-1
   Tiles tiles;
@@ -58,6 +59,8 @@ struct Particles {
       some(a);
     some(mass);
     for (auto& a : x0)
+      some(a);
+    for (auto& a : closed)
       some(a);
     some(body);
     some(id);

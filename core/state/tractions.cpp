@@ -66,7 +66,10 @@ CrackFrame crack_frame(const Cracks& cracks, int point) {
 }
 
 FacePair face_opening(const Cracks& cracks, int point) {
-  return in_frame(cracks, point, cracks.upper[point] - cracks.lower[point]);
+  FacePair opening = in_frame(cracks, point, cracks.upper[point] - cracks.lower[point]);
+  if (!cracks.gap.empty())
+    opening.normal += cracks.gap[point].x + cracks.gap[point].y;
+  return opening;
 }
 
 FacePair law_opening(const Cracks& cracks, int point) {

@@ -12,7 +12,7 @@ struct CrackFrame {
 
 CrackFrame crack_frame(const Cracks&, int point);
 
-/// Opening of the faces at a point, m: upper less lower, in the directions of the crack.
+/// Opening of the faces at a point, m: upper less lower, in the directions of the crack, with the gap at first.
 FacePair face_opening(const Cracks&, int point);
 
 /// Has a segment, from a point to the next, become more than twice as long as it first was? It spans the opening of

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/laws/contact_node.hpp"
+#include "core/laws/contact_sweep.hpp"
 
 namespace riven {
 namespace {

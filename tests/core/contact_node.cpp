@@ -1,12 +1,12 @@
 // All contacts of a node together: conservation, energy, and the closed forms of four fields.
-#include "core/laws/contact_node.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "core/laws/contact_sweep.hpp"
 
 namespace riven {
 namespace {

@@ -76,7 +76,7 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   s.energy.relative_error = std::nan("");
   s.momentum_error = 1e-15;
   s.angular_momentum_error = INFINITY;
-  s.warnings = {{"both sides", 3, {0.5, 0.25}}, {"third crack", 0, {}}};
+  s.warnings = {{"both sides", 3, {0.5, 0.25}, "smaller cells"}, {"third crack", 0, {}, ""}};
   s.probes = {{"opening", 1e-5, "m"}};
   Tip grown;
   grown.crack = 1;
@@ -101,6 +101,7 @@ TEST(ResultsSummary, HasWhatProgramsReadFromIt) {
   EXPECT_EQ(j["momentum_error"], 1e-15);
   EXPECT_EQ(j["tasks"][0]["label"], "particle to grid");
   EXPECT_EQ(j["warnings"]["both sides"]["count"], 3);
+  EXPECT_EQ(j["warnings"]["both sides"]["try"], "smaller cells");
   EXPECT_EQ(j["warnings"]["both sides"]["first_place"][1], 0.25);
   EXPECT_TRUE(j["warnings"]["third crack"]["first_place"].is_null());
   EXPECT_EQ(j["probes"]["opening"]["value"], 1e-5);

@@ -36,6 +36,14 @@ Scene with_tips() {
   return s;
 }
 
+Scene cut_in_two() {
+  Scene s = plain();
+  s.bodies = {body("lower", Rectangle{{0, 0}, {1, 0.5}}), body("upper", Rectangle{{0, 0.5}, {1, 1}})};
+  s.cracks = {crack("border", {{-0.1, 0.5}, {1.1, 0.5}})};
+  s.contact.law = ContactLaw::frictionless;
+  return s;
+}
+
 struct EffectCase {
   const char* name;  ///< as in explain()
   const char* task;  ///< as tasks name their effect; empty where the effect is part of the plain step
@@ -60,6 +68,13 @@ const EffectCase effects[] = {
      cracked,
      [](Scene& s) { s.contact.law = ContactLaw::frictionless; },
      {"particles: first position"}},
+    {"first gaps",
+     "",
+     cut_in_two,
+     [](Scene& s) {
+       s.bodies[1].region = Rectangle{{0, 0.7}, {1, 1.2}};
+     },
+     {"particles: closed position"}},
     {"J", "J", cracked, [](Scene& s) { s = with_tips(); }, {"particles: deformation gradient"}},
     {"growth",
      "growth",
@@ -165,8 +180,10 @@ TEST_P(Effects, HaveNoTaskAndNoArrayWhereTheyAreNotAsked) {
       EXPECT_FALSE(tasks(a).contains(c.task));
       EXPECT_TRUE(tasks(b).contains(c.task));
     }
-    EXPECT_GT(b.tasks.size() + b.plan.keeps_F() + b.plan.first_positions(),
-              a.tasks.size() + a.plan.keeps_F() + a.plan.first_positions());
+    const auto extent = [](const Simulation& m) {
+      return m.tasks.size() + m.plan.keeps_F() + m.plan.first_positions() + m.plan.first_gaps;
+    };
+    EXPECT_GT(extent(b), extent(a));
     for (const std::string& name : c.arrays) {
       EXPECT_FALSE(arrays(a).contains(name)) << name;
       EXPECT_TRUE(steps == 0 || arrays(b).contains(name)) << name;

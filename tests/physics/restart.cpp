@@ -10,6 +10,7 @@
 #include "tests/io/results_sample.hpp"
 #include "tests/physics/restarts.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/physics/scenes.hpp"
 
 namespace riven {
 namespace {
@@ -99,6 +100,17 @@ TEST(Restart, IsExactWithLargeDeformationAndContact) {
 
 TEST(Restart, IsExactWhereContactWaitsForFacesToClose) {
   expect_exact<double>(shipped("two_disks", {"contact.when=auto"}), 600, 4, both, 5);
+}
+
+/// A block flies over cells to another one, spins and hits it.
+TEST(Restart, IsExactWithSolidsThatStartApart) {
+  Scene s = test::empty_scene(1, {{-4, -4}, {20, 20}});
+  s.bodies = {test::body("rests", Rectangle{{0, 0}, {14, 6}}), test::body("falls", Rectangle{{4, 7.3}, {10, 11.3}})};
+  s.bodies[1].velocity = {2, -5};
+  s.bodies[1].spin = 0.3;
+  s.cracks = {test::crack("border", {{-2, 6}, {16, 6}})};
+  s.contact = {ContactLaw::coulomb, 0.3, 0, 0};
+  expect_exact<double>(s, 60, 5, both, 7);
 }
 
 /// Loads over places go by where particles began.

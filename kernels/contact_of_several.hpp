@@ -1,0 +1,192 @@
+// The contacts of a node that sees several cracks, solved together (core/laws/contact_sweep.hpp).
+#pragma once
+#include <algorithm>
+
+#include "core/laws/contact_sweep.hpp"
+#include "kernels/contact.hpp"
+#include "kernels/contact_finder.hpp"
+
+namespace riven {
+
+inline namespace RIVEN_SIDE {
+
+/// The contacts of a node that holds so many cracks at most and may have several meetings, from its slots to its slots.
+template <int cracks, class Real, ContactStage stage>
+struct NodeContact {
+  using Node = ContactNodeOf<cracks>;
+  using Outcome = ContactOutcomeOf<cracks>;
+  static constexpr int most_pairs = Node::most_pairs;
+
+  const FieldMotion<Real, stage>& motion;
+  const ImpulseNotes& notes;
+  const ContactFinder<Real>& found;
+  const double dt;
+  Node node{};
+  long slot[Node::fields] = {};
+  Meeting pair[most_pairs] = {};  ///< the meeting behind each of node.pair
+  double gap[most_pairs] = {};
+  double stick_gap[most_pairs] = {};
+  ContactReport report{};
+
+  RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice) {
+    for (int f = 0; f < n.fields(); ++f) {
+      slot[f] = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
+      node.mass[f] = motion.mass[slot[f]];
+      if (node.mass[f] > 0)
+        node.momentum[f] = motion.momentum_of(slot[f]);
+    }
+  }
+
+  RIVEN_INLINE void add(const Meeting& m, const ContactPair& p, double g) {
+    pair[node.pairs] = m;
+    gap[node.pairs] = g;
+    node.add(p);
+  }
+
+  /// The pair that already stands for the same crack between the same groups of fields, or -1.
+  RIVEN_INLINE int find_same(const Meeting& m) const {
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].k == m.k && node.together(pair[k].above, m.above) && node.together(pair[k].below, m.below))
+        return k;
+    return -1;
+  }
+
+  /// Of two meetings across one crack that bonded fields make one, the first to close counts, and an interface has the
+  /// area of both.
+  RIVEN_INLINE void list(const Meeting& m, const Verdict& v) {
+    switch (v.touch) {
+      case Touch::none: return;
+      case Touch::apart: ++report.apart; return;
+      case Touch::bonds:
+        node.bond(m.above, m.below);
+        ++report.touching;
+        return;
+      case Touch::sticks:
+        stick_gap[node.stickings] = v.gap;
+        node.add(StickingPair{m.above, m.below, m.normal});
+        return;
+      case Touch::pulls:
+      case Touch::pushes: break;
+    }
+    const int k = find_same(m);
+    if (k < 0) {
+      add(m, v.pair, v.gap);
+    } else if (v.touch == Touch::pulls) {
+      pair[k].share += m.share;
+    } else if (v.gap < gap[k]) {
+      gap[k] = v.gap;
+      node.pair[k] = v.pair;
+    }
+  }
+
+  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume) {
+    for (const Meeting& m : meetings)
+      if (m.law.law == ContactLaw::bonded)
+        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
+    for (const Meeting& m : meetings)
+      if (!node.together(m.above, m.below) && !found.prescribed.both_given(slot, m))
+        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
+  }
+
+  /// Fields whose motion is prescribed do not give way, where they are firm. One that is prescribed in one component
+  /// alone does, half-way: what it resists is not given to it.
+  RIVEN_INLINE void hold_prescribed() {
+    constexpr double heavy = 1e6;  // tolerances of the solution go by the sum of m |v|
+    double all = 0;
+    for (const double m : node.mass)
+      all += m;
+    for (int f = 0; f < Node::fields; ++f)
+      if (node.mass[f] > 0 && found.prescribed.of(slot[f]) == 3 && firmness(node.mass[f], all) == 1) {
+        node.mass[f] *= heavy;
+        node.momentum[f] *= heavy;
+      }
+  }
+
+  /// Velocity of a group of fields before the step's forces.
+  RIVEN_INLINE Vec2 first_velocity(int f) const {
+    Vec2 p;
+    for (int g = 0; g < Node::fields; ++g)
+      if (node.mass[g] > 0 && node.together(f, g))
+        p += node.mass[g] * motion.first_velocity(slot[g], dt);
+    return p * (1 / node.group_mass(f));
+  }
+
+  RIVEN_INLINE void respond(ContactPair& p, const Meeting& m, const ContactArea& a) const {
+    const double factor = m.share * a.area * dt * dt / node.reduced_mass(m.above, m.below);
+    const double across = factor * m.law.normal_stiffness, along = factor * m.law.shear_stiffness;
+    if constexpr (stage == ContactStage::after) {
+      const Vec2 n = m.normal, t = turned(n), u = first_velocity(m.above) - first_velocity(m.below);
+      p.across = interface_response(across, dot(u, n), dot(a.opening, n), dt);
+      p.along = interface_response(along, dot(u, t), dot(a.opening, t), dt);
+    } else {
+      p.across = interface_hold(across);
+      p.along = interface_hold(along);
+    }
+  }
+
+  RIVEN_INLINE void tally(const Outcome& out, double relative_volume) {
+    report.capped += !out.converged;
+    bool touched = false;
+    for (int k = 0; k < node.pairs; ++k) {
+      const bool push = out.lambda[k] != 0 || out.tau[k] != 0;
+      report.touching += push;
+      if (pair[k].law.law == ContactLaw::interface)
+        continue;
+      report.apart += !push;
+      touched = touched || push;
+      if (push) {
+        report.penetration = std::max(report.penetration, -gap[k]);
+        report.gap = std::max(report.gap, gap[k]);
+      }
+    }
+    for (int i = 0; i < node.stickings; ++i) {
+      ++(out.stuck[i] ? report.touching : report.apart);
+      if (!out.stuck[i])
+        continue;
+      touched = true;
+      report.penetration = std::max(report.penetration, -stick_gap[i]);
+    }
+    report.early = touched && relative_volume < found.v_sep;
+  }
+
+  /// Does any of them act?
+  RIVEN_INLINE bool run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
+    load(n, lattice);
+    const Meetings<cracks> meetings =
+        find_meetings<cracks>(n, held_normals<cracks>(n, index, found.normals, found.third_normals), node.mass, laws);
+    if (meetings.count == 0)
+      return false;
+    double volume = 1;
+    found.sums.ask(index, n);
+    if (found.sums.volume) {
+      volume = 0;
+      for (int f = 0; f < n.fields(); ++f)
+        volume += found.sums.volume[slot[f]];
+      volume = relative_volume(lattice, n.node, volume);
+    }
+    detect(meetings, volume);
+    double momenta = 0;
+    for (int f = 0; f < Node::fields; ++f)
+      momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
+    hold_prescribed();
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].law.law == ContactLaw::interface)
+        respond(node.pair[k], pair[k], found.area[entry_of(n, index, pair[k].k, found.flagged)]);
+    const Outcome out = solve(node);
+    tally(out, volume);
+    if (!out.converged)
+      report.capped_node = n.node;
+    bool acting = false;
+    for (int f = 0; f < Node::fields; ++f) {
+      if (!out.changed[f])
+        continue;
+      found.prescribed.give(motion, notes, index, n, slot[f], out.impulse[f], out.velocity[f], dt);
+      acting = acting || acts(out.impulse[f], momenta);
+    }
+    return acting;
+  }
+};
+
+}  // namespace RIVEN_SIDE
+
+}  // namespace riven
