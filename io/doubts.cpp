@@ -263,7 +263,7 @@ std::vector<Doubt> doubts(const Scene& s) {
   doubt_toughness(s, list);
   doubt_solids(s, list);
   doubt_grips(s, list);
-  doubt_gaps(s, list);
+  doubt_borders(s, list);
   doubt_loads(s, list);
   doubt_cracks(s, list);
   return list;

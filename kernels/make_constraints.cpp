@@ -73,7 +73,11 @@ void claim_beyond_edge(std::vector<Constraint>& fixed, exec::Array<int>& at_node
         const int i = axis == 0 ? row : k, j = axis == 0 ? k : row, next = axis == 0 ? step : step * l.nx;
         const int node = j * l.nx + i, beyond = node + next, at = at_node[beyond];
         const bool claimed = at != 0 && (fixed[static_cast<size_t>(at - 1)].mask & (1u << axis));
-        if (!claimed && is_void(scene, l.position(node), out) && !is_void(scene, l.position(node), -out))
+        const auto body_behind = [&](double cells) {
+          return !is_void(scene, l.position(node) + (cells * l.h) * turned(out), -out);
+        };
+        // what is pressed spreads along the edge, past its ends
+        if (!claimed && is_void(scene, l.position(node), out) && (body_behind(0) || body_behind(-1) || body_behind(1)))
           claim_node(fixed, at_node, beyond, axis, number);
       }
     }

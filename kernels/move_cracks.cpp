@@ -28,7 +28,7 @@ RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackV
     from.prefetch_nodes(cracks.plane[std::min(k + 2 * points_of_fit, last)]);
     from.prefetch_fields(cracks.plane[std::min(k + points_of_fit, last)]);
     const CrackPoint point = crack_point(from.view, static_cast<int>(k));
-    const Vec2 gap = cracks.gap ? cracks.gap[k] : Vec2{};
+    const Vec2 gap = cracks.to_faces(k);
     const Vec2 surface[2] = {cracks.upper[k] + gap.x * point.left, cracks.lower[k] - gap.y * point.left};
     on_grid[k - first] = from.look_around(point, surface, pair[k - first]);
   }

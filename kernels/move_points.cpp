@@ -57,14 +57,25 @@ class SoundMass {
   double least_, most_ = 0;
 };
 
-bool has_gap(const Cracks& cracks, long k) {
-  return !cracks.gap.empty() && cracks.gap[k].x + cracks.gap[k].y > 0;
-}
+/// What the plane of a point moves with: both faces where solids touch at first, across a gap each as far as the other
+/// one is away, and along a single solid that one alone, whatever comes by later.
+struct Follows {
+  bool gap;           ///< at first, or there was no solid on some side
+  bool upper, lower;  ///< there was
+  double of_upper = 0.5;
 
-/// How much of the upper surface's move is in that of the plane: as far as it is from the lower one.
-double share_of_upper(const Cracks& cracks, long k) {
-  return has_gap(cracks, k) ? cracks.gap[k].y / (cracks.gap[k].x + cracks.gap[k].y) : 0.5;
-}
+  explicit Follows(Vec2 first)
+      : gap(first.x + first.y > 0), upper(std::isfinite(first.x)), lower(std::isfinite(first.y)) {
+    if (gap && upper != lower)
+      of_upper = upper ? 1 : 0;
+    else if (gap && upper)
+      of_upper = first.y / (first.x + first.y);
+  }
+  /// Is the move of the plane known?
+  bool known(bool has_upper, bool has_lower) const {
+    return gap ? (of_upper == 0 || has_upper) && (of_upper == 1 || has_lower) : has_upper || has_lower;
+  }
+};
 
 /// The moves of point k by what was found for it with no less mass than is sound.
 Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rules, double dt, long k, Cracks& cracks) {
@@ -72,7 +83,9 @@ Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rul
   const double above = sound.of(k, 0), below = sound.of(k, 1);
   const PointMotion up = kept(found.surface(k, 0), above), low = kept(found.surface(k, 1), below),
                     all = kept(found.of_all(k), std::min(above, below));
-  const bool has_up = up.mass > 0, has_low = low.mass > 0, xpic = rules.update == SurfaceUpdate::xpic;
+  const Follows follows(cracks.gap.empty() ? Vec2{} : cracks.gap[k]);
+  const bool has_up = up.mass > 0 && follows.upper, has_low = low.mass > 0 && follows.lower;
+  const bool xpic = rules.update == SurfaceUpdate::xpic;
   Vec2* const up_velocity = xpic ? &cracks.upper_velocity[k] : nullptr;
   Vec2* const low_velocity = xpic ? &cracks.lower_velocity[k] : nullptr;
   Moves m;
@@ -85,11 +98,11 @@ Moves moves_of(const FoundMotions& found, const SoundMass& sound, CrackRules rul
     *up_velocity = any.after(dt);
   if (xpic && !has_low)
     *low_velocity = any.after(dt);
-  const double of_upper = share_of_upper(cracks, k);
-  m.plane = has_up && has_low ? of_upper * m.upper + (1 - of_upper) * m.lower : has_up ? m.upper : m.lower;
-  m.angle = dt * (has_up && has_low ? 0.5 * (up.spin + low.spin) : up.spin + low.spin);
-  m.known = has_up || has_low;
-  if (all.mass > 0 && !has_gap(cracks, k)) {
+  const double of_upper = has_up && has_low ? follows.of_upper : has_up;
+  m.plane = of_upper * m.upper + (1 - of_upper) * m.lower;
+  m.angle = dt * (of_upper * up.spin + (1 - of_upper) * low.spin);
+  m.known = follows.known(has_up, has_low);
+  if (all.mass > 0 && !follows.gap) {
     m.plane = surface_move(all, SurfaceUpdate::flip, dt, true, nullptr);
     m.angle = dt * all.spin;
     m.known = true;

@@ -41,7 +41,7 @@ struct Cracks {
   bool velocities_known = false;                     ///< set by the first move; until then surfaces start with the grid
   exec::Array<Vec2> plane0;                          ///< [points] where the plane was when the point was made
   exec::Array<Vec2> density;  ///< [points] kg/m^3, above (x) and below (y); empty where bodies have the same
-  exec::Array<Vec2> gap;  ///< [points] m, to the solids above (x) and below (y) at first; empty where there are none
+  exec::Array<Vec2> gap;      ///< [points] m, to the solids above (x) and below (y) at first (first_gaps.hpp)
   /// [points] of the segment that starts at a point: jump of displacement across an imperfect interface, along the
   /// segment's normal and along the segment, m (contact law `interface` only)
   exec::Array<Vec2> jump;

@@ -62,46 +62,41 @@ Vec2 up_at(const Cracks& c, int k) {
   return length > 0 ? (1 / length) * turned(along) : Vec2{};
 }
 
-/// Of the points of one crack; true if any is wider than rounding.
-bool lay_gaps(const Scene& scene, const Cracks& cracks, int crack, exec::Array<Vec2>& gaps) {
-  const int first = cracks.end_point(crack, false), last = cracks.end_point(crack, true);
-  std::vector<int> between;  // solids
-  bool open = false;
-  for (int k = first; k <= last; ++k) {
-    const Vec2 up = up_at(cracks, k);
-    const auto above = to_solid(scene, cracks.plane0[k], up);
-    const auto below = above ? to_solid(scene, cracks.plane0[k], -up) : std::nullopt;
-    if (!above || !below)
-      continue;
-    between.push_back(k);
-    gaps[k] = {*above, *below};
-    open = open || *above + *below > 0;
-  }
-  if (!open)
-    return false;
-  for (int k = first; k <= last; ++k) {
-    const auto next = std::lower_bound(between.begin(), between.end(), k);
-    const bool before = next == between.end() || (next != between.begin() && k - next[-1] < *next - k);
-    gaps[k] = gaps[before ? next[-1] : *next];
-  }
-  return true;
+/// At a point of a crack. Solids that are both farther than `near` are seen by the way, as from the mouth of a notch
+/// between two rollers, and a crack belongs to a single solid only along its border.
+Vec2 gaps_at(const Scene& scene, const Cracks& cracks, int k) {
+  constexpr double near = 2, along = 0.05;  // cells
+  constexpr double nothing = std::numeric_limits<double>::infinity();
+  const Vec2 up = up_at(cracks, k);
+  const double above = to_solid(scene, cracks.plane0[k], up).value_or(nothing),
+               below = to_solid(scene, cracks.plane0[k], -up).value_or(nothing);
+  const double reach = scene.cell * (std::isinf(std::max(above, below)) ? along : near);
+  return std::min(above, below) <= reach ? Vec2{above, below} : Vec2{nothing, nothing};
+}
+
+bool is_between_solids(Vec2 gap) {
+  return std::isfinite(gap.x) && std::isfinite(gap.y);
+}
+
+bool any_apart(const exec::Array<Vec2>& gaps) {
+  return std::any_of(gaps.begin(), gaps.end(), [](Vec2 gap) { return is_between_solids(gap) && gap.x + gap.y > 0; });
 }
 
 }  // namespace
 
 exec::Array<Vec2> first_gaps(const Scene& scene, const Cracks& cracks) {
   exec::Array<Vec2> gaps(cracks.points());
-  bool any = false;
-  for (int c = 0; c < cracks.count(); ++c)
-    any = (keeps_apart(cracks.contact[c].law) && lay_gaps(scene, cracks, c, gaps)) || any;
-  if (!any)
+  for (int k = 0; k < cracks.points(); ++k)
+    if (keeps_apart(cracks.contact[cracks.crack[k]].law))
+      gaps[k] = gaps_at(scene, cracks, k);
+  if (scene.bodies.size() < 2 && !any_apart(gaps))
     gaps.resize(0);
   return gaps;
 }
 
 bool starts_apart(const Scene& scene) {
   return scene.contact_rules.detection == ContactDetection::displacement &&
-         !first_gaps(scene, make_cracks(scene, least_particle_distance(scene))).empty();
+         any_apart(first_gaps(scene, make_cracks(scene, least_particle_distance(scene))));
 }
 
 /// What a particle sees of a crack.
@@ -111,20 +106,33 @@ struct ClosedGaps::Face {
   Vec2 way;                                               ///< unit length, from the particle to the crack
 };
 
-ClosedGaps::ClosedGaps(const Cracks& cracks, double cell) : cracks_(cracks), cell_(cell) {
+ClosedGaps::ClosedGaps(const Cracks& cracks, double cell) : cracks_(cracks), cell_(cell), gap_(cracks.gap) {
   for (int c = 0; c < cracks.count(); ++c) {
     const int first = cracks.end_point(c, false), last = cracks.end_point(c, true);
     Vec2 low = cracks.plane0[first], high = low;
+    carry_gaps(first, last);
     double widest = 0;
     for (int k = first; k <= last; ++k) {
       const Vec2 x = cracks.plane0[k];
       low = {std::min(low.x, x.x), std::min(low.y, x.y)};
       high = {std::max(high.x, x.x), std::max(high.y, x.y)};
-      widest = std::max({widest, cracks.gap[k].x, cracks.gap[k].y});
+      widest = std::max({widest, gap_[k].x, gap_[k].y});
     }
     const double out = widest + deep * cell;
     boxes_.push_back({low - Vec2{out, out}, high + Vec2{out, out}});
     (widest > 0 ? open_ : shut_).push_back(c);
+  }
+}
+
+void ClosedGaps::carry_gaps(int first, int last) {
+  std::vector<int> between;  // solids
+  for (int k = first; k <= last; ++k)
+    if (is_between_solids(gap_[k]))
+      between.push_back(k);
+  for (int k = first; k <= last; ++k) {
+    const auto next = std::lower_bound(between.begin(), between.end(), k);
+    const bool before = next == between.end() || (next != between.begin() && k - next[-1] < *next - k);
+    gap_[k] = between.empty() ? Vec2{} : gap_[before ? next[-1] : *next];
   }
 }
 
@@ -144,7 +152,7 @@ ClosedGaps::Face ClosedGaps::face(int crack, Vec2 x) const {
     nearest = distance;
     way = (1 / distance) * (foot - x);
     const double part = std::clamp(t, 0., 1.);
-    const Vec2 gaps = (1 - part) * cracks_.gap[k] + part * cracks_.gap[k + 1];
+    const Vec2 gaps = (1 - part) * gap_[k] + part * gap_[k + 1];
     gap = cross(along, x - a) > 0 ? gaps.x : gaps.y;
   }
   const double depth = nearest - gap;

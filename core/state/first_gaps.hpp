@@ -9,12 +9,11 @@
 
 namespace riven {
 
-/// From each point of a crack whose faces may meet to the solids above (x) and below (y) it, m, along the normal
-/// of the crack. Points with a solid on one side alone, as beyond the edge of a body, have what the nearest point along
-/// the crack has with solids on both; where none has, zeros. Empty if no crack has a gap.
+/// From each point of a crack whose faces may meet to the solids above (x) and below (y) it, m, along the normal of the
+/// crack; infinite where there is none. Empty in a scene of one body if no crack has a gap.
 exec::Array<Vec2> first_gaps(const Scene& scene, const Cracks& cracks);
 
-/// Has any crack a gap, and contact is found by displacement?
+/// Has any crack a gap between solids, and contact is found by displacement?
 bool starts_apart(const Scene& scene);
 
 /// Where particles would lie if their solids touched the cracks, Cracks::gap between them closed.
@@ -28,10 +27,13 @@ class ClosedGaps {
 
  private:
   struct Face;
+  /// Gives points of a crack without solids on both sides, as beyond the edge of a body, the gap of the nearest with.
+  void carry_gaps(int first, int last);
   Face face(int crack, Vec2 x) const;
 
   const Cracks& cracks_;
   double cell_;
+  exec::Array<Vec2> gap_;         ///< [points]
   std::vector<Rectangle> boxes_;  ///< [cracks] around what a crack concerns
   std::vector<int> open_, shut_;  ///< cracks with gaps, and without
 };

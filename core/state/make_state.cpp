@@ -136,8 +136,7 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
   }
   if (plan.cracks) {
     s.cracks = make_cracks(scene, least_particle_distance(scene));
-    if (plan.first_gaps)
-      s.cracks.gap = first_gaps(scene, s.cracks);
+    s.cracks.gap = first_gaps(scene, s.cracks);
     tie_from_start(scene, s.cracks);
     lay_densities(scene, s.cracks);
     lay_in_solid(scene, s.cracks);

@@ -1,6 +1,7 @@
 #include "core/state/tractions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/state/make_tips.hpp"
 
@@ -67,8 +68,8 @@ CrackFrame crack_frame(const Cracks& cracks, int point) {
 
 FacePair face_opening(const Cracks& cracks, int point) {
   FacePair opening = in_frame(cracks, point, cracks.upper[point] - cracks.lower[point]);
-  if (!cracks.gap.empty())
-    opening.normal += cracks.gap[point].x + cracks.gap[point].y;
+  if (const double gap = cracks.gap.empty() ? 0 : cracks.gap[point].x + cracks.gap[point].y; std::isfinite(gap))
+    opening.normal += gap;
   return opening;
 }
 

@@ -179,6 +179,36 @@ TEST(Doubts, NameGapsAlongACrackThatDetectionDoesNotKnow) {
   EXPECT_TRUE(doubts(with_gap(0.5e-3)).empty()) << "no contact";
 }
 
+// Along a border turned by 30 degrees: on it, a tenth of a cell inside of the lower body, twice, and too short.
+TEST(Doubts, NameCracksThatDoNotPartTwoBodies) {
+  const auto at = [](double along, double up) {
+    return Vec2{20e-3 + 0.5e-3 * (std::sqrt(3.) * along - up), 20e-3 + 0.5e-3 * (along + std::sqrt(3.) * up)};
+  };
+  const auto scene = [&](double gap, double from, double depth) {
+    Scene s = sound_scene();
+    s.fracture.asked = false;
+    s.grips.clear();
+    Body upper = s.bodies[0];
+    upper.name = "upper";
+    s.bodies[0].region = Polygon{{at(-12, -6), at(12, -6), at(12, 0), at(-12, 0)}};
+    upper.region = Polygon{{at(-12, gap), at(12, gap), at(12, 6), at(-12, 6)}};
+    s.bodies.push_back(upper);
+    s.cracks[0].points = {at(from, -depth), at(14, -depth)};
+    return s;
+  };
+  EXPECT_TRUE(doubts(scene(0, -14, 0)).empty());
+  EXPECT_TRUE(doubts(scene(0.5, -14, 0)).empty());
+  expect_doubt(scene(0.5, -14, 0.1), "crack edge", "a little inside of a body");
+  expect_doubt(scene(0, -11.6, 0), "crack edge", "less than a cell before the border of two bodies does");
+  expect_doubt(scene(1.5, -11.6, 0), "crack edge", "less than a cell before the border of two bodies does");
+  EXPECT_TRUE(doubts(scene(0, -9, 0)).empty()) << "a tip on the border";
+  Scene two = scene(0.5, -14, 0);
+  two.cracks.push_back(two.cracks[0]);
+  two.cracks[1].name = "again";
+  two.cracks[1].points = {at(-14, 0.5), at(14, 0.5)};
+  expect_doubt(two, "crack again", "along the same gap between solids as crack edge");
+}
+
 TEST(Doubts, NameGripsThatReachJustPastACrack) {
   Scene s = sound_scene();
   Grip side;
