@@ -222,7 +222,7 @@ void check_cracks(const Scene& s) {
     check_planes(s, c);
     if (!meets_body(s, c, spacing))
       refuse(s, "crack " + c.name, "no part of the crack lies in a body",
-             text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body");
+             text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body, or along its border");
     if (c.traction)
       check_traction(s, c, spacing);
   }

@@ -114,6 +114,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
       .reach = 0.2 * grid.lattice.h,
       .pressed = by_position ? exec::data(fields.pressed) : nullptr,
       .slopes = nullptr,
+      .noise = sums.noise,
       .prescribed = {sums.prescribed.empty() ? nullptr : exec::data(std::as_const(sums.prescribed)),
                      sums.prescribed.empty() ? nullptr : exec::data(sums.resisted), sums.early_impulse}};
   const auto act = [&](auto at, const char* label) {

@@ -21,6 +21,7 @@ struct ContactFinder {
   double reach;        ///< m, gap beyond which nothing touches (displacement)
   double* pressed;     ///< CrackFields; null where none is kept
   const Vec2* slopes;  ///< ContactSums; null where none pressed, and in the momentum update
+  bool noise;          ///< ContactSums
   PrescribedFields prescribed;
 
   /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.

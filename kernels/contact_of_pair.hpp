@@ -63,7 +63,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     if (v.touch == Touch::pushes)
       r = prescribed ? coupled_impulse(v.pair, yielding, across) : pair_impulse(v.pair, reduced, across);
     if (last > 0)
-      r = hold(r, last, v.touch == Touch::sticks, m.law.friction > 0, reduced, across,
+      r = hold(r, last, v.touch == Touch::sticks, found.noise && m.law.friction == 0, reduced, across,
                found.apart(index, slot, mass, m));
     now = r.lambda;
     touches = r.lambda != 0 || r.tau != 0;

@@ -29,6 +29,7 @@ void sum_for_contact(SimulationOf<Real>& m) {
   const Plan& p = m.plan;
   contact_sums(m.space, {p.contact_volume, p.contact_position, p.contact_area}, particles(m), m.state.grid,
                m.state.fields, m.state.cracks, m.scene.thickness, m.contact_sums);
+  m.contact_sums.noise = m.early_impulse() < 1;
 }
 
 template <class Real>

@@ -41,6 +41,7 @@ struct ContactSums {
                                          ///< nowhere beside cracks
   exec::Array<Vec2> resisted;            ///< [slots] N s, what such fields resisted in this step of what contact gave
                                          ///< them, as far as particles of the others felt it; holds for those alone
+  bool noise = true;                     ///< particles keep what the grid does not see of their velocities (FLIP)
   double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
   exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
 };

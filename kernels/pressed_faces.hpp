@@ -9,17 +9,17 @@
 // energy, 1 to 12 % of that of a wave that passes. So there faces that pressed on each other in the last update lose of
 // their relative velocity what goes along with w, for no more impulse than they pressed with; along the crack, too, if
 // their law is to stick:
-//   impulse = m (u.d) d, u.d brought within [0, w.d]      along d = n, where faces part and rub, and d = t, where they
-//                                                         stick
+//   impulse = m (u.d) d, u.d brought within [0, w.d]      along d = n, where faces part, and d = t, where they stick
 // The slope of v is that between the nodes on either side of the crack,
 //   (n.grad) v = sum_axes n_axis (v(x + h e_axis) - v(x - h e_axis)) / 2h,
 // each the velocity of the field on that side of the crack. To keep faces that rub together altogether would not do:
 // with FLIP noise takes sliding faces apart for a step at a time, and what is held then is pushed on and on. Nor would
 // it do to keep along the crack what friction held: where faces slide noise lets some nodes stick for a step, and what
 // they lose there no friction has taken.
-// Faces without friction do stay together altogether across the crack, for no more impulse than they pressed with. Let
-// go, they part at some nodes behind the front of a sharp impact; forces then close them, and the impulse that stops
-// them as they meet does work on what was parting: 5 % of the energy where the crack lies between grid lines.
+// With FLIP faces without friction do stay together altogether across the crack, for no more impulse than they pressed
+// with. Let go, they part at some nodes behind the front of a sharp impact; forces then close them, and the impulse
+// that stops them as they meet does work on what was parting: 5 % of the energy where the crack lies between grid
+// lines.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -102,13 +102,13 @@ RIVEN_INLINE double along_with(double u, double w) {
   return std::clamp(u, std::min(0., w), std::max(0., w));
 }
 
-/// The impulse of a pair that pressed by `pressed` (N s) in the last update, from its own law's, by which it sticks, or
-/// rubs; masses, u and w: components across and along.
-RIVEN_INLINE PairImpulse hold(PairImpulse by_law, double pressed, bool sticks, bool rubs, Vec2 reduced_mass, Vec2 u,
+/// The impulse of a pair that pressed by `pressed` (N s) in the last update, from its own law's, by which it sticks or
+/// not; with `whole` nothing is let go across; masses, u and w: components across and along.
+RIVEN_INLINE PairImpulse hold(PairImpulse by_law, double pressed, bool sticks, bool whole, Vec2 reduced_mass, Vec2 u,
                               Vec2 w) {
   PairImpulse r = by_law;
   if (u.x < 0)
-    r.lambda = std::max(-pressed, reduced_mass.x * (rubs ? along_with(u.x, std::min(0., w.x)) : u.x));
+    r.lambda = std::max(-pressed, reduced_mass.x * (whole ? u.x : along_with(u.x, std::min(0., w.x))));
   if (sticks)
     r.tau = std::clamp(reduced_mass.y * along_with(u.y, w.y), -pressed, pressed);
   return r;
