@@ -1,7 +1,6 @@
 #include "kernels/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 #include <utility>
 
