@@ -115,10 +115,14 @@ void each_member(Tip& t, F&& f) {
   f("grew", t.grew);
   f("load", t.load);
   f("checked", t.checked);
+  f("way_time", t.way.time);
+  f("way_release", t.way.release);
+  f("way_length", t.way.length);
+  f("way_ahead", t.way.ahead);
+  f("way_seen", t.way.seen);
   f("checks", t.checks);
   f("mean_I", t.mean_I);
   f("mean_II", t.mean_II);
-  f("mean_release", t.mean_release);
   f("step", t.step);
   f("J", t.J);
   f("J1", t.J1);

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/fracture/extend_crack.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/fracture/stress_intensity.hpp"
+#include "core/fracture/tip_motion.hpp"
 #include "core/state/bodies_at_cracks.hpp"
 #include "core/state/make_tips.hpp"
 #include "core/state/tractions.hpp"
+#include "kernels/around_tip.hpp"
 #include "kernels/bring_near.hpp"
 #include "kernels/particles_near.hpp"
 #include "kernels/simulation.hpp"
@@ -19,7 +21,6 @@ namespace riven {
 
 namespace {
 
-constexpr double facing = 0.5;  ///< cosine of the angle up to which tips face each other, and are in each other's way
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
 constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
@@ -35,35 +36,34 @@ class Growth {
         report_(m.fracture),
         tip_(tip),
         boxes_(boxes),
-        rule_(growth_rule_at(m.scene, tip)) {
-    const Body& body = scene_.bodies[static_cast<size_t>(tip.body)];
-    particle_ = scene_.cell / body.particles_per_cell;
+        rule_(growth_rule_at(m.scene, tip)),
+        particle_(scene_.cell / scene_.bodies[static_cast<size_t>(tip.body)].particles_per_cell),
+        around_(s_, tip, particle_, boxes) {
     thickness_ = s_.thickness[tip.body];
     const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
     limit_ = rule_.speed_limit > 0 ? rule_.speed_limit : wave;
     start_limit_ = std::max(limit_, wave);
     now_ = s_.clock.time + s_.clock.dt;
-    x_ = s_.cracks.plane[s_.cracks.end_point(tip.crack, tip.last)];
-    ahead_ = direction(tip);
   }
 
   void check() {
+    const double since = now_ - tip_.way.seen;
     take_mean();
     // how fast a tip may run says nothing of when it starts
     const long interval = check_interval(particle_, tip_.running ? limit_ : start_limit_, s_.clock.dt);
     const long alone = steps_alone();
     tip_.due = s_.clock.step + (tip_.running ? interval : std::max(interval, alone));
-    const std::optional<Vec2> way = next_way();
-    Tip* const other = way || tip_.running ? facing_tip() : nullptr;
+    const std::optional<Vec2> way = next_way(since);
+    Tip* const other = way || tip_.running ? around_.facing_tip() : nullptr;
     if (other)
       return meet(*other);
     if (!way)
       return wait();
-    const double segment = tip_.running ? std::min(particle_, limit_ * (now_ - tip_.grew)) : particle_;
+    const double segment = next_segment();
     if (const auto obstacle =
             first_obstacle(s_.cracks, tip_.crack, tip_.last, *way, segment + 0.5 * particle_, 0.5 * particle_, boxes_))
       return join(*obstacle);
-    const Vec2 to = x_ + segment * *way;
+    const Vec2 to = around_.place + segment * *way;
     if (!solid_ahead(s_, to, *way, particle_))
       return leave(to, *way, segment);
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
@@ -75,34 +75,48 @@ class Growth {
   }
 
  private:
-  /// What drives a tip that runs, as the mean over its checks since it grew last.
+  /// What drives a tip that runs: in the proportion of the modes since it grew last, which turns with its crack, as
+  /// much as on the last cells of its way.
   void take_mean() {
     if (!tip_.running || !tip_.sound) {
       tip_.checks = 0;
+      tip_.way.seen = now_;
       return;
     }
+    follow(tip_.way, tip_.release, now_);
+    tip_.release = mean_release(tip_.way);
     const double part = 1. / static_cast<double>(++tip_.checks);
-    const auto blend = [&](double& mean, double& now) {
-      mean += part * (now - mean);
-      now = mean;
-    };
-    blend(tip_.mean_I, tip_.drive_I);
-    blend(tip_.mean_II, tip_.drive_II);
-    blend(tip_.mean_release, tip_.release);
+    tip_.mean_I += part * (tip_.drive_I - tip_.mean_I);
+    tip_.mean_II += part * (tip_.drive_II - tip_.mean_II);
+    const PlaneElasticity solid(scene_.materials[static_cast<size_t>(tip_.material)], scene_.plane);
+    const double of_means = (tip_.mean_I * tip_.mean_I + tip_.mean_II * tip_.mean_II) / solid.E;
+    const double scale = of_means > 0 ? std::sqrt(tip_.release / of_means) : 0;
+    tip_.drive_I = scale * tip_.mean_I;
+    tip_.drive_II = scale * tip_.mean_II;
   }
 
-  Vec2 direction(const Tip& t) const {
-    const Vec2 d =
-        s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - s_.cracks.plane[s_.cracks.next_to_end(t.crack, t.last)];
-    return d * (1 / norm(d));
+  /// The way in which the crack grows now, if it does; `since`, s: the last check. Where no contour is sound what is
+  /// left of the solid ahead is a cell or two: a tip that runs goes through it, and so does one at rest that is driven,
+  /// though the least contour takes in too little of the solid to say where to.
+  std::optional<Vec2> next_way(double since) {
+    if (!tip_.sound)
+      return tip_.running || load_now() >= 1 ? around_.way_out(scene_.fracture.contour) : std::nullopt;
+    if (tip_.running ? has_gone_on(since) : load_now() >= 1) {
+      const Vec2 ahead = around_.ahead, asked = growth_direction(rule_, tip_, ahead);
+      const double angle = around_.told() * std::atan2(cross(ahead, asked), dot(ahead, asked));
+      return std::cos(angle) * ahead + std::sin(angle) * turned(ahead);
+    }
+    return std::nullopt;
   }
 
-  /// Where no contour is sound what is left of the solid ahead is a cell or two: a tip that runs goes through it, and
-  /// so does one at rest that is driven, though the least contour takes in too little of the solid to say where to.
-  std::optional<Vec2> next_way() const {
-    if (tip_.sound)
-      return growth_direction(rule_, tip_, ahead_);
-    return tip_.running || load_now() >= 1 ? way_out() : std::nullopt;
+  /// m, by which the crack grows next.
+  double next_segment() const { return tip_.running ? std::min(particle_, limit_ * (now_ - tip_.grew)) : particle_; }
+
+  /// Moves a tip that runs on. Has it come nearer to the end of the next segment than it will be at the next check?
+  bool has_gone_on(double since) {
+    const double way = since * running_speed(tip_.way, load_now(), start_limit_, limit_);
+    tip_.way.ahead += way;
+    return tip_.way.ahead + 0.5 * way >= next_segment();
   }
 
   /// How near the tip is to growth. Where no contour is sound: the lesser of what J and K say, which agree where they
@@ -117,61 +131,6 @@ class Growth {
     return std::min(growth_load(rule_, tip_), growth_load(rule_, by_J));
   }
 
-  /// The way nearest to straight on that leads out of the solid or into another crack within the contour, or, at an
-  /// angle, within the cells that the least contour takes: what is left of the solid there none can tell about.
-  std::optional<Vec2> way_out() const {
-    if (length_out(ahead_, (0.5 * scene_.fracture.contour + 1) * scene_.cell))
-      return ahead_;
-    constexpr int angles = 5;
-    for (int k = 1; k <= angles; ++k) {
-      const double angle = k * std::numbers::pi / (2 * angles);
-      const Vec2 on = std::cos(angle) * ahead_, aside = std::sin(angle) * turned(ahead_);
-      const Vec2 ways[2] = {on + aside, on - aside};
-      const std::optional<double> length[2] = {length_out(ways[0], 2.25 * scene_.cell),
-                                               length_out(ways[1], 2.25 * scene_.cell)};
-      if (length[0] || length[1])
-        return ways[!length[0] || (length[1] && *length[1] < *length[0])];
-    }
-    return std::nullopt;
-  }
-
-  /// How far away the edge of the solid, or another crack, is, m; none beyond reach.
-  std::optional<double> length_out(Vec2 way, double reach) const {
-    const auto obstacle = first_obstacle(s_.cracks, tip_.crack, tip_.last, way, reach, 0, boxes_);
-    const auto outside = [&](double d) { return !solid_ahead(s_, x_ + d * way, way, particle_); };
-    const double limit = obstacle ? obstacle->distance : reach;
-    double d = 0;
-    while (d < limit && !outside(d))
-      d += particle_;
-    if (!(d < limit))
-      return obstacle ? std::optional(obstacle->distance) : std::nullopt;
-    double within = std::max(0., d - particle_);
-    for (int halving = 0; halving < 10; ++halving) {
-      const double middle = 0.5 * (within + d);
-      (outside(middle) ? d : within) = middle;
-    }
-    return d;
-  }
-
-  Tip* facing_tip() const {
-    Tip* nearest = nullptr;
-    double least = scene_.cell;
-    for (Tip& t : s_.tips) {
-      if (&t == &tip_ || !t.open)
-        continue;
-      const Vec2 r = s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - x_;
-      const double d = norm(r);
-      if (!(d > 0 && d < least))
-        continue;
-      const Vec2 its = direction(t);
-      if (std::min({dot(r, ahead_) / d, -dot(r, its) / d, -dot(ahead_, its)}) > facing) {
-        least = d;
-        nearest = &t;
-      }
-    }
-    return nearest;
-  }
-
   void meet(Tip& other) {
     const Cracks& c = s_.cracks;
     const int k = c.end_point(other.crack, other.last);
@@ -179,7 +138,7 @@ class Growth {
     o.on = {tip_.crack, tip_.last, other.crack,
             std::max(0, k - c.start[static_cast<size_t>(other.crack)] - int{other.last}), double(other.last)};
     o.place = c.plane[k];
-    o.distance = norm(o.place - x_);
+    o.distance = norm(o.place - around_.place);
     join_crack(s_.cracks, o, c.plane0[k], scene_.cell);
     lay_at_end();
     book(o.distance);
@@ -231,10 +190,10 @@ class Growth {
     if (!tip_.running)
       return;
     tip_.speed = std::min(tip_.speed, particle_ / since);
-    if (since * limit_ > rest * particle_) {
+    if (since * limit_ > rest * particle_ && !(tip_.sound && tip_.load >= 1)) {
       tip_.running = false;
       tip_.speed = 0;
-      record(tip_, CrackEvent::Kind::arrest, x_, -1);
+      record(tip_, CrackEvent::Kind::arrest, around_.place, -1);
     }
   }
 
@@ -268,9 +227,13 @@ class Growth {
   void book(double segment) {
     if (tip_.running) {
       tip_.speed += 0.25 * (segment / (now_ - tip_.grew) - tip_.speed);
+      pass(tip_.way, segment, scene_.cell);
     } else {
       tip_.running = true;
-      record(tip_, CrackEvent::Kind::start, x_, -1);
+      tip_.way = {};
+      tip_.way.seen = now_;
+      tip_.due = s_.clock.step + check_interval(particle_, limit_, s_.clock.dt);
+      record(tip_, CrackEvent::Kind::start, around_.place, -1);
     }
     tip_.grew = now_;
     tip_.checks = 0;
@@ -309,10 +272,11 @@ class Growth {
   Tip& tip_;
   const std::vector<Rectangle>& boxes_;
   const GrowthRule rule_;
-  double particle_, thickness_;
+  const double particle_;
+  const AroundTip<Real> around_;
+  double thickness_;
   double limit_, start_limit_;  ///< m/s, of a tip that runs, and of what one at rest may have come to
   double now_;                  ///< at the end of this step
-  Vec2 x_, ahead_;
 };
 
 }  // namespace

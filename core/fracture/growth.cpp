@@ -50,9 +50,7 @@ long steps_at_rest(double load, double rise, long most) {
   return std::clamp(static_cast<long>(0.5 * (1 - load) / std::max(rise, least)), 1L, most);
 }
 
-std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
-  if (!(growth_load(rule, tip) >= 1))
-    return std::nullopt;
+Vec2 growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead) {
   switch (rule.direction) {
     case GrowthDirection::self_similar: return ahead;
     case GrowthDirection::fixed: {

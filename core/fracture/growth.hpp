@@ -7,8 +7,6 @@
 // which is the angle of the paper for K_I >= 0, 70.53 degrees where K_I = 0. For K_I < 0 it is the
 // greatest value still, and the paper's formula, which has |K_I|, is not.
 #pragma once
-#include <optional>
-
 #include "core/math/vec.hpp"
 #include "core/scene/scene.hpp"
 #include "core/state/tips.hpp"
@@ -33,7 +31,7 @@ double rayleigh_speed(const Material& material, Plane plane);
 long check_interval(double particle, double speed_limit, double dt);
 
 /// How near a tip is to growth: its K^max, or the square root of its J, over that at which it grows; at least 1 where
-/// it does, 0 where nothing drives it.
+/// it does, 0 where nothing drives it. Faces that are shut in mode I (K_I < 0) release nothing by it.
 double growth_load(const GrowthRule& rule, const Tip& tip);
 
 /// Steps for which a tip at rest may be left alone: half of those in which its load, which rises by `rise` a step,
@@ -46,9 +44,8 @@ inline bool growth_due(const Tip& tip, long step) {
   return tip.open && tip.grows && step >= tip.due;
 }
 
-/// The direction in which a crack grows by the J and K of its tip, of unit length; none where it does not grow.
-/// `ahead`: direction of the crack at the tip, of unit length. Of a fixed heading and its opposite, the one that lies
-/// ahead is taken. Faces that are shut in mode I (K_I < 0) release nothing by it.
-std::optional<Vec2> growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead);
+/// The direction in which a crack grows by the K of its tip, of unit length. `ahead`: direction of the crack at the
+/// tip, of unit length. Of a fixed heading and its opposite, the one that lies ahead is taken.
+Vec2 growth_direction(const GrowthRule& rule, const Tip& tip, Vec2 ahead);
 
 }  // namespace riven

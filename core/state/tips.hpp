@@ -6,6 +6,16 @@
 
 namespace riven {
 
+/// What a tip that runs goes by: sums along its way, in which what was before counts the less the farther it has run
+/// since (tip_motion.hpp).
+struct TipWay {
+  double time = 0;     ///< s
+  double release = 0;  ///< J s/m^2, of Tip::release over that time
+  double length = 0;   ///< m, grown in it
+  double ahead = 0;    ///< m, by which the tip has run beyond the end of its crack, which grows by segments
+  double seen = 0;     ///< s, time up to which it was followed
+};
+
 struct Tip {
   int crack = 0;
   bool last = false;     ///< which end of the crack's points it is
@@ -21,9 +31,10 @@ struct Tip {
   double grew = 0;       ///< s, time at which it grew last
   double load = 0;       ///< how near it was to growth at its last check; see growth_load
   long checked = 0;      ///< Clock::step of that
-  /// of a tip that runs: checks since it grew last, and the means of drive_I, drive_II and release over these
+  TipWay way;            ///< of a tip that runs
+  /// of a tip that runs: checks since it grew last, and the means of drive_I and drive_II over these
   long checks = 0;
-  double mean_I = 0, mean_II = 0, mean_release = 0;
+  double mean_I = 0, mean_II = 0;
 
   // the last evaluation of J
   long step = -1;            ///< Clock::step of it
@@ -32,7 +43,7 @@ struct Tip {
   double K_I = 0, K_II = 0;  ///< Pa m^0.5, J shared out by the interaction integral where it holds, else by the opening
   double O_I = 0, O_II = 0;  ///< Pa m^0.5, J shared out by the opening of the crack behind the tip
   /// Pa m^0.5, what growth goes by: intensities of a tip at rest, for which K_Ic = sqrt(E' J_Ic). After a check of a
-  /// tip that runs these are the means
+  /// tip that runs these are means: their proportion since it grew last, what they release over the last cells
   double drive_I = 0, drive_II = 0;
   double release = 0;  ///< J/m^2, that go with them
   /// Pa m^0.5, by the interaction integral; NaN where it cannot follow the faces in the contour

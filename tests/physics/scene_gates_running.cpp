@@ -1,9 +1,12 @@
-// J of tips that run. In a strip that is held stretched the release is known, at any speed; and until two offset
-// cracks, which run at up to 0.7 of the shear wave speed, are abreast, J at one time is that of every contour, as
-// inertia between them has its part. The control leaves that out.
+// Tips that run: J, and how fast they do. In a strip that is held stretched the release is known, at any speed; and
+// until two offset cracks, which run at up to 0.7 of the shear wave speed, are abreast, J at one time is that of every
+// contour, as inertia between them has its part. The control leaves that out.
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
+#include "core/fracture/growth.hpp"
+#include "core/fracture/stress_intensity.hpp"
 #include "core/scene/schedule.hpp"
 #include "io/probes.hpp"
 #include "tests/physics/scene_gates.hpp"
@@ -113,6 +116,123 @@ TEST(RunningTip, ReleasesWhatTheStripAheadHolds) {
     EXPECT_NEAR(J.mean(1), held, 0.05 * held);
     EXPECT_LT(J.swing(1), 0.12 * held);
     EXPECT_NEAR(drive, held, 0.06 * held);
+  }
+}
+
+/// What a tip of speed v takes up over what one at rest would: g(v) of Freund (1990, section 6.4), by the slownesses of
+/// the waves, a < b < c of Rayleigh's,
+///   g = (1 - c v) / (1 + c v) sqrt((1 + a v) / (1 - a v)) exp(2 v / pi int_a^b f(n) / (1 - n^2 v^2) dn),
+///   f = arctan(4 n^2 sqrt((n^2 - a^2) (b^2 - n^2)) / (b^2 - 2 n^2)^2).
+double share_at_speed(const PlaneElasticity& solid, double c_R, double v) {
+  const double a = 1 / solid.dilatational_speed, b = 1 / solid.shear_speed, c = 1 / c_R;
+  constexpr int intervals = 400;
+  double integral = 0;
+  for (int k = 0; k < intervals; ++k) {
+    const double n = a + (b - a) * (k + 0.5) / intervals, n2 = n * n, d = b * b - 2 * n2;
+    integral += std::atan2(4 * n2 * std::sqrt((n2 - a * a) * (b * b - n2)), d * d) / (1 - n2 * v * v);
+  }
+  integral *= (b - a) / intervals;
+  return (1 - c * v) / (1 + c * v) * std::sqrt((1 + a * v) / (1 - a * v)) *
+         std::exp(2 * v * integral / std::numbers::pi);
+}
+
+// A step wave sets a half-plane crack running: what a tip at rest would be offered rises with time from the arrival of
+// the wave on, wherever that tip is, and g(v) is the time of the start over the time. Tips go by half a cell, and start
+// when the interaction integral says so.
+TEST(RunningTip, MovesAsFreundsEquationSays) {
+  constexpr double us = 1e-6, mm = 1e-3;
+  const std::vector<std::vector<std::string>> ways{{},
+                                                   {"fracture.contour=8"},
+                                                   {"solver.order=4"},
+                                                   {"solver.transfer=flip"},
+                                                   {"grid.cell=0.5 mm"},
+                                                   {"body.0.particles_per_cell=3"}};
+  for (const std::vector<std::string>& changes : ways) {
+    std::vector<std::string> all{"output.frames=0"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    const Scene s = shipped("freund_growth", all);
+    const Material& material = s.materials[0];
+    const PlaneElasticity solid(material, Plane::strain);
+    const double c_R = rayleigh_speed(material, Plane::strain), arrival = 20 * mm / solid.dilatational_speed;
+    const double per_root =
+        2 * 800e6 * std::sqrt(solid.dilatational_speed * (1 - 2 * material.nu) / std::numbers::pi) / (1 - material.nu);
+    const double start = std::pow(s.growth->toughness / per_root, 2);
+    const auto speed_at = [&](double t) {
+      double low = 0, high = c_R;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (share_at_speed(solid, c_R, middle) > start / t ? low : high) = middle;
+      }
+      return low;
+    };
+    const test::ChosenSpace space;
+    Simulation m(s, space);
+    const Tip& tip = m.state.tips[m.state.tips[0].open ? 0 : 1];
+    double expected = 0, worst = 0;
+    while (!m.finished()) {
+      m.step();
+      const double t = m.state.clock.time - arrival;
+      if (t < start)
+        continue;
+      expected += speed_at(t - 0.5 * m.state.clock.dt) * m.state.clock.dt;
+      worst = std::max(worst, std::abs(tip.length - expected));
+    }
+    const std::string what = changes.empty() ? "as shipped" : changes[0];
+    report("step wave, " + what + ": way of the tip at the end, mm", tip.length / mm,
+           fmt::format("{:.2f}", expected / mm));
+    report("step wave, " + what + ": most that it is before or behind, mm", worst / mm, "0.45");
+    EXPECT_GT(expected, 4.4 * mm);
+    EXPECT_LT(worst, 0.45 * mm);
+  }
+}
+
+// A strip that holds a little more than the toughness: the tip gathers speed, the less the nearer to the Rayleigh
+// speed,
+//   dv/dt = c_p^2 / H (1 - Gamma / G) (1 - v^2 / c_R^2)^2   (Marder, Phys. Rev. Lett. 66 (1991) 2484-2487),
+// and what is booked is what the body loses.
+TEST(RunningTip, GathersSpeedInAStripAndTakesUpItsToughness) {
+  constexpr double held = 646.4, H = 12e-3, first = 8e-3, last = 56e-3;
+  for (const double toughness : {517., 600.}) {
+    const Scene s = shipped("running_strip", {fmt::format("growth.toughness={} J/m^2", toughness),
+                                              "growth.speed_limit=895 m/s", "output.frames=0"});
+    const Material& strip = s.materials[0];
+    const PlaneElasticity solid(strip, Plane::stress);
+    const double c_R = rayleigh_speed(strip, Plane::stress);
+    const test::ChosenSpace space;
+    Simulation m(s, space);
+    const Tip& tip = m.state.tips[m.state.tips[0].open ? 0 : 1];
+    const auto lost = [&ledger = m.state.ledger] {
+      const Energy& e = ledger.energy;
+      return e.external_work - e.kinetic - e.strain;
+    };
+    double at_first = 0, booked = 0, lost_at_first = 0, v = 0, l = 0;
+    while (tip.length < last && !m.finished()) {
+      m.step();
+      if (tip.length < first)
+        continue;
+      if (at_first == 0) {
+        m.take_stock();
+        at_first = m.state.clock.time;
+        booked = m.state.ledger.energy.fracture;
+        lost_at_first = lost();
+      }
+    }
+    ASSERT_GE(tip.length, last);
+    m.take_stock();
+    booked = (m.state.ledger.energy.fracture - booked) / (lost() - lost_at_first);
+    const double time = m.state.clock.time - at_first;
+    double expected = 0;
+    for (constexpr double dt = 1e-8; l < last;) {
+      v += dt * std::pow(solid.dilatational_speed, 2) / H * (1 - toughness / held) *
+           std::pow(1 - v * v / (c_R * c_R), 2);
+      l += dt * v;
+      expected += l > first ? dt : 0;
+    }
+    const std::string what = fmt::format("strip of toughness {}: ", toughness);
+    report(what + "mean speed over 48 mm over Marder's, less 1", expected / time - 1, "0.1");
+    report(what + "energy booked over lost, less 1", booked - 1, "0.1");
+    EXPECT_NEAR(expected / time, 1, 0.1);
+    EXPECT_NEAR(booked, 1, 0.1);
   }
 }
 

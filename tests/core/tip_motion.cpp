@@ -1,0 +1,81 @@
+// How fast tips run, against the equation of motion that the law comes from.
+#include "core/fracture/tip_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace riven {
+namespace {
+
+constexpr double wave = 900, cell = 1e-3, segment = 0.5e-3;
+
+/// The way of a tip, in steady motion with the given speed and release, by checks of the given interval.
+TipWay steady(double speed, double release, double interval) {
+  TipWay way;
+  double now = 0, at = 0;
+  for (int k = 0; k < 400; ++k) {
+    now += interval;
+    at += speed * interval;
+    follow(way, release, now);
+    for (; at >= segment; at -= segment)
+      pass(way, segment, cell);
+  }
+  return way;
+}
+
+TEST(TipMotion, KeepsASpeedAtWhichTheToughnessIsTakenUp) {
+  for (const double speed : {90., 450., 800.}) {
+    const TipWay way = steady(speed, 120, 0.05e-6);
+    EXPECT_NEAR(mean_release(way), 120, 1e-9);
+    EXPECT_NEAR(running_speed(way, 1, wave, wave), speed, 0.13 * speed);  // as it is between two segments
+  }
+}
+
+TEST(TipMotion, GoesToTheSpeedAtWhichTheReleaseWouldBeTheToughness) {
+  const TipWay way = steady(300, 120, 0.01e-6);
+  const double speed = way.length / way.time;
+  // 1 - v' / c = (1 - v / c) / load^2
+  EXPECT_NEAR(running_speed(way, std::sqrt(2.), wave, wave), wave - (wave - speed) / 2, 1e-9);
+  EXPECT_NEAR(running_speed(way, std::sqrt(0.9), wave, wave), wave - (wave - speed) / 0.9, 1e-9);
+  EXPECT_EQ(running_speed(way, std::sqrt(0.5), wave, wave), 0);
+  EXPECT_EQ(running_speed(way, 0, wave, wave), 0);
+  EXPECT_EQ(running_speed(way, 2, wave, 200), 200);
+  EXPECT_LT(running_speed(way, 1e6, wave, wave), wave + 1e-9);
+}
+
+// dl/dt = c (1 - Gamma / G_0), G_0 Gamma (1 + t / T): l = c (t - T log(1 + t / T)), a tip that swings by half with
+// each cell.
+TEST(TipMotion, FollowsTheEquationOfMotionThroughSwings) {
+  constexpr double T = 4e-6, step = 0.02e-6;
+  TipWay way;
+  double at = 0, now = 0, grew = 0, speed = 0;
+  while (now < 20e-6) {
+    now += step;
+    const double offered = 1 + now / T, swing = 1 + 0.5 * std::sin(2 * std::numbers::pi * at / cell);
+    follow(way, (1 - speed / wave) * offered * swing, now);
+    const double on = step * running_speed(way, std::sqrt(mean_release(way)), wave, wave);
+    way.ahead += on;
+    if (way.ahead + 0.5 * on >= segment) {
+      at += segment;
+      pass(way, segment, cell);
+      speed = segment / (now - grew);
+      grew = now;
+    }
+  }
+  EXPECT_NEAR(at, wave * (now - T * std::log1p(now / T)), 1.5 * cell);
+}
+
+TEST(TipMotion, ForgetsWhatLiesCellsBehind) {
+  TipWay way = steady(300, 120, 0.01e-6);
+  for (int k = 0; k < 40; ++k) {
+    follow(way, 60, way.seen + segment / 300);
+    pass(way, segment, cell);
+  }
+  EXPECT_NEAR(mean_release(way), 60, 0.01);
+  EXPECT_GE(way.ahead, -0.5 * segment);
+}
+
+}  // namespace
+}  // namespace riven
