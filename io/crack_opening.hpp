@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "core/scene/scene.hpp"
 #include "core/state/cracks.hpp"
 
 namespace riven {
@@ -17,7 +18,8 @@ struct CrackOpening {
 /// One entry per point of all cracks, in their order.
 std::vector<CrackOpening> crack_openings(const Cracks& cracks);
 
-/// Normal opening of one crack where its magnitude is largest, m; negative where the faces overlap.
-double extreme_opening(const Cracks& cracks, int crack);
+/// Normal opening of one crack where its magnitude is largest, m; negative where the faces overlap. Of points with
+/// solid beside them: others move with what is nearest.
+double extreme_opening(const Scene& scene, const Cracks& cracks, int crack);
 
 }  // namespace riven

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/bodies_at_cracks.hpp"
 #include "core/state/tractions.hpp"
 #include "io/crack_opening.hpp"
 #include "io/frames.hpp"
@@ -16,11 +17,11 @@ std::vector<CrackOpening> crack_openings(const Cracks& cracks) {
   return all;
 }
 
-double extreme_opening(const Cracks& cracks, int crack) {
+double extreme_opening(const Scene& scene, const Cracks& cracks, int crack) {
   const std::vector<CrackOpening> all = crack_openings(cracks);
   double extreme = 0;
   for (int i = cracks.start[crack]; i < cracks.start[crack + 1]; ++i)
-    if (std::abs(all[static_cast<std::size_t>(i)].normal) > std::abs(extreme))
+    if (std::abs(all[static_cast<std::size_t>(i)].normal) > std::abs(extreme) && has_solid_beside(scene, cracks, i))
       extreme = all[static_cast<std::size_t>(i)].normal;
   return extreme;
 }

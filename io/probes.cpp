@@ -86,7 +86,7 @@ double read_one(const SimulationOf<Real>& m, const Probe& probe, int target) {
   const auto& p = m.state.particles;
   const auto axis = static_cast<size_t>(probe.axis);
   switch (probe.kind) {
-    case Probe::Kind::crack_opening: return extreme_opening(m.state.cracks, target);
+    case Probe::Kind::crack_opening: return extreme_opening(m.scene, m.state.cracks, target);
     case Probe::Kind::displacement: {
       const long i = position_of(p, target);
       return p.x[axis][i] - p.x0[axis][i];

@@ -1,6 +1,7 @@
 #include "core/state/bodies_at_cracks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/state/make_tips.hpp"
@@ -8,6 +9,8 @@
 namespace riven {
 
 namespace {
+
+constexpr double beside = 0.1;  ///< cells from a crack along the border of a body to where that is looked for
 
 /// The mean density in the reach of a face at x, out along `way`, weighed about as nodes weigh particles; 0 where there
 /// is no body.
@@ -22,13 +25,18 @@ double density_beside(const Scene& scene, Vec2 x, Vec2 way) {
   return weights > 0 ? sum / weights : 0;
 }
 
-/// Above (x) and below (y) a point of a crack.
-Vec2 densities(const Scene& scene, const Cracks& cracks, int crack, int k) {
-  const int before = std::max(k - 1, cracks.end_point(crack, false)),
+/// Across a crack at one of its points, upwards, of unit length.
+Vec2 upwards(const Cracks& cracks, int k) {
+  const int crack = cracks.crack[k], before = std::max(k - 1, cracks.end_point(crack, false)),
             next = std::min(k + 1, cracks.end_point(crack, true));
   const Vec2 along = cracks.plane0[next] - cracks.plane0[before];
   const double length = norm(along);
-  const Vec2 up = length > 0 ? (1 / length) * turned(along) : Vec2{};
+  return length > 0 ? (1 / length) * turned(along) : Vec2{};
+}
+
+/// Above (x) and below (y) a point of a crack.
+Vec2 densities(const Scene& scene, const Cracks& cracks, int k) {
+  const Vec2 up = upwards(cracks, k);
   return {density_beside(scene, cracks.plane0[k], up), density_beside(scene, cracks.plane0[k], -up)};
 }
 
@@ -37,7 +45,7 @@ double share_in_bodies(const Scene& scene, Vec2 a, Vec2 b) {
   constexpr int samples = 32;
   const Vec2 along = b - a;
   const double length = norm(along);
-  const Vec2 aside = length > 0 ? (0.1 * scene.cell / length) * turned(along) : Vec2{};
+  const Vec2 aside = length > 0 ? (beside * scene.cell / length) * turned(along) : Vec2{};
   int inside = 0;
   for (int i = 0; i < samples; ++i) {
     const Vec2 x = a + ((i + 0.5) / samples) * along;
@@ -61,12 +69,22 @@ void lay_densities(const Scene& scene, Cracks& cracks) {
   for (int c = 0; c < cracks.count(); ++c) {
     const int first = cracks.end_point(c, false), last = cracks.end_point(c, true);
     for (int k = first; k <= last; ++k)
-      cracks.density[k] = densities(scene, cracks, c, k);
+      cracks.density[k] = densities(scene, cracks, k);
     for (int k = first; k < last; ++k)
       take_from(cracks.density[k], cracks.density[k + 1]);
     for (int k = last; k > first; --k)
       take_from(cracks.density[k], cracks.density[k - 1]);
   }
+}
+
+bool has_solid_beside(const Scene& scene, const Cracks& cracks, int k) {
+  if (!cracks.gap.empty() && std::isfinite(cracks.gap[k].x) && std::isfinite(cracks.gap[k].y))
+    return true;
+  const Vec2 x = cracks.plane0[k], aside = beside * scene.cell * upwards(cracks, k), along = turned(aside);
+  for (const Vec2 at : {x + aside + along, x + aside - along, x - aside + along, x - aside - along})
+    if (body_at(scene, at) >= 0)
+      return true;
+  return false;
 }
 
 void lay_in_solid(const Scene& scene, Cracks& cracks) {
@@ -83,7 +101,7 @@ void lay_density_at_end(const Scene& scene, int crack, bool last, Cracks& cracks
   if (cracks.density.empty())
     return;
   const int k = cracks.end_point(crack, last);
-  cracks.density[k] = densities(scene, cracks, crack, k);
+  cracks.density[k] = densities(scene, cracks, k);
   take_from(cracks.density[cracks.next_to_end(crack, last)], cracks.density[k]);
 }
 

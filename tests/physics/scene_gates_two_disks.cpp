@@ -177,7 +177,8 @@ TwoDisks run_two_disks(const std::vector<std::string>& settings, bool volumes = 
     r.drop = std::max(r.drop, 1 - m.state.ledger.energy.total() / first);
     r.growth = std::max(r.growth, m.state.ledger.energy.total() / first - 1);
     if (!due.empty() && m.state.clock.time >= due.front() * ms * (1 - 1e-9)) {
-      r.opening[due.front()] = {extreme_opening(m.state.cracks, 0) / mm, extreme_opening(m.state.cracks, 1) / mm};
+      r.opening[due.front()] = {extreme_opening(m.scene, m.state.cracks, 0) / mm,
+                                extreme_opening(m.scene, m.state.cracks, 1) / mm};
       if (forces)
         r.left[due.front()] = look_at_middle(m, *forces, 0);
       r.outside = std::max(r.outside, distance_from_body(m));

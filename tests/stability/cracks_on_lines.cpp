@@ -70,7 +70,7 @@ Opened open(double h, double offset, ContactLaw law) {
   Simulation m(s, space);
   Account account(m);
   run(m, account, 300, 50);
-  Opened r{fields_of(m), extreme_opening(m.state.cracks, 0) / h, m.state.fields.warning_both_sides};
+  Opened r{fields_of(m), extreme_opening(m.scene, m.state.cracks, 0) / h, m.state.fields.warning_both_sides};
   EXPECT_LT(account.momentum, 1e-12);
   return r;
 }
@@ -185,7 +185,7 @@ TEST(CrackThroughParticles, HasAParticleOnOneSide) {
     const std::string name = fmt::format("crack through the particles at {} cells", row);
     below(name + ": particles on both sides", static_cast<double>(wrong), 1);
     run(m, account, 299, 50);
-    above(name + ": opening of the mouth, cells", extreme_opening(m.state.cracks, 0) / h, 0.01);
+    above(name + ": opening of the mouth, cells", extreme_opening(m.scene, m.state.cracks, 0) / h, 0.01);
     expect_kept(name, account, m);
   }
 }
@@ -255,7 +255,7 @@ TEST(ZigZag, LeavesNoFieldWithoutMass) {
   });
   run(m, account, 1000);
   below("zig-zag, 1000 steps: fields without mass that bear a force", orphans, 1);
-  above("zig-zag, 1000 steps: opening of the mouth, cells", extreme_opening(m.state.cracks, 0) / h, 0.01);
+  above("zig-zag, 1000 steps: opening of the mouth, cells", extreme_opening(m.scene, m.state.cracks, 0) / h, 0.01);
   expect_kept("zig-zag, 1000 steps", account, m);
 }
 
