@@ -8,6 +8,8 @@ namespace riven {
 namespace {
 
 constexpr double memory = 2;  ///< cells of its way that a tip goes by
+/// Of the speed of waves, beyond which what a tip meets is not read well; at that speed itself none would ever slow.
+constexpr double told_to = 0.9;
 
 }  // namespace
 
@@ -34,7 +36,7 @@ double mean_release(const TipWay& way) {
 double running_speed(const TipWay& way, double load, double wave, double limit) {
   if (!(load > 0))
     return 0;
-  const double speed = std::min(way.length / way.time, wave);
+  const double speed = std::min(way.length / way.time, told_to * wave);
   return std::clamp(wave - (wave - speed) / (load * load), 0.0, limit);
 }
 

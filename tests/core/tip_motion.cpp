@@ -67,6 +67,13 @@ TEST(TipMotion, FollowsTheEquationOfMotionThroughSwings) {
   EXPECT_NEAR(at, wave * (now - T * std::log1p(now / T)), 1.5 * cell);
 }
 
+// At the speed of waves itself 1 - v / c vanishes.
+TEST(TipMotion, SlowsFromTheSpeedOfWavesWhereLittleDrivesIt) {
+  const TipWay way = steady(wave, 120, 0.01e-6);
+  EXPECT_NEAR(running_speed(way, 1, wave, wave), 0.9 * wave, 1e-9);
+  EXPECT_EQ(running_speed(way, 0.3, wave, wave), 0);
+}
+
 TEST(TipMotion, ForgetsWhatLiesCellsBehind) {
   TipWay way = steady(300, 120, 0.01e-6);
   for (int k = 0; k < 40; ++k) {
