@@ -9,8 +9,6 @@
 namespace riven {
 namespace {
 
-using test::SmallRun;
-
 // From outside of the block through it: points beyond its edge, which move with what is near, are not read.
 TEST(CrackOpening, IsThatOfPointsInSolid) {
   const Scene scene = test::small({}, "x0_mm,y0_mm,x1_mm,y1_mm\n-1.5,4,9.5,4\n");
