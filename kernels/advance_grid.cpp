@@ -48,13 +48,13 @@ void advance_grid(const exec::Space& space, State<Real, 2>& s, bool from_velocit
   with_flag(from_velocity, [&](auto flag) { advance<decltype(flag)::value>(space, s, damping); });
 }
 
-namespace {
-
-template <bool MovesAgain, class Real>
-void make_again(const exec::Space& space, const int* flagged, double damping, State<Real, 2>& s) {
+template <class Real>
+void velocities_again(const exec::Space& space, const Plan& plan, double particle_damping, State<Real, 2>& s) {
+  const int* flagged = plan.contact_slides ? exec::data(std::as_const(s.fields.node_index)) : nullptr;
   const Real *mass = exec::data(std::as_const(s.grid.mass)), *q = exec::data(std::as_const(s.grid.q));
   Real* again = exec::data(s.grid.again);
-  const Real least = Real(mass_cutoff(s)), dt = Real(s.clock.dt), slowed = Real(0.5 * (1 - damping * s.clock.dt));
+  const Real least = Real(mass_cutoff(s)), dt = Real(s.clock.dt),
+             slowed = Real(0.5 * (1 - particle_damping * s.clock.dt));
   const long nodes = s.grid.lattice.nodes();
   exec::parallel_for(space, "velocities again", s.grid.slots(), [=] RIVEN_KERNEL(long n) {
     Real* to = again + 4 * n;
@@ -66,19 +66,10 @@ void make_again(const exec::Space& space, const int* flagged, double damping, St
     const Real fx = vx - dt * q[4 * n + 2], fy = vy - dt * q[4 * n + 3];  // before the update
     to[0] *= inverse;
     to[1] *= inverse;
-    const bool by_grid = !MovesAgain || (flagged && (n >= nodes || flagged[n] >= 0));
+    const bool by_grid = flagged && (n >= nodes || flagged[n] >= 0);
     to[2] = by_grid ? Real(0.5) * vx + slowed * fx : Real(0.5) * (to[0] + fx);
     to[3] = by_grid ? Real(0.5) * vy + slowed * fy : Real(0.5) * (to[1] + fy);
   });
-}
-
-}  // namespace
-
-template <class Real>
-void velocities_again(const exec::Space& space, const Plan& plan, double particle_damping, State<Real, 2>& s) {
-  const int* flagged = plan.contact_slides ? exec::data(std::as_const(s.fields.node_index)) : nullptr;
-  with_flag(plan.moves_again(),
-            [&](auto flag) { make_again<decltype(flag)::value>(space, flagged, particle_damping, s); });
 }
 
 namespace {

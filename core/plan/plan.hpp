@@ -48,15 +48,14 @@ struct Plan {
   bool stress_after() const { return update != StressUpdate::usf; }
   bool averaged() const { return update == StressUpdate::usavg; }
   bool extrapolate_again() const { return update == StressUpdate::musl || update == StressUpdate::usavg; }
-  /// Particles move by the velocities that strain, before the step and extrapolated again. What particles take from the
-  /// grid goes through them once more before it strains: moved by the grid's own velocities, rows of particles at
-  /// loaded edges would creep while their stress stands, and with FLIP, where the grid comes to rest there, a solid
-  /// under tension would begin to swing by itself, by e in some 10,000 steps at a strain of 0.5 %.
-  bool moves_again() const { return extrapolate_again(); }
-  /// The same for cracks and around them. Faces that may slide keep to the grid's own velocities: contact, which is
-  /// found by displacements, makes these the same on both sides. Moved otherwise, J of faces that are pressed together
-  /// is off by a tenth.
-  bool cracks_move_again() const { return moves_again() && !contact_slides; }
+  /// Cracks move as particles do, which move by the velocities that strain, before the step and extrapolated again.
+  /// What particles take from the grid goes through them once more before it strains: moved by the grid's own
+  /// velocities, rows of particles at loaded edges would creep while their stress stands, and with FLIP, where the grid
+  /// comes to rest there, a solid under tension would begin to swing by itself, by e in some 10,000 steps at a strain
+  /// of 0.5 %. Faces that may slide, and what is around them, keep to the grid's own: contact, which is found by
+  /// displacements, makes these the same on both sides. Moved otherwise, J of faces that are pressed together is off by
+  /// a tenth.
+  bool cracks_move_again() const { return extrapolate_again() && !contact_slides; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
   /// From the third order on, a product with the full mass matrix costs less than passes over the particles.
   bool full_mass() const { return higher_order() && order > 2; }
