@@ -140,7 +140,7 @@ double share_at_speed(const PlaneElasticity& solid, double c_R, double v) {
 // the wave on, wherever that tip is, and g(v) is the time of the start over the time. Tips go by half a cell, and start
 // when the interaction integral says so.
 TEST(RunningTip, MovesAsFreundsEquationSays) {
-  constexpr double us = 1e-6, mm = 1e-3;
+  constexpr double mm = 1e-3;
   const std::vector<std::vector<std::string>> ways{{},
                                                    {"fracture.contour=8"},
                                                    {"solver.order=4"},
