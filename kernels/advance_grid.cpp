@@ -50,7 +50,8 @@ void advance_grid(const exec::Space& space, State<Real, 2>& s, bool from_velocit
 
 template <class Real>
 void velocities_again(const exec::Space& space, const Plan& plan, double particle_damping, State<Real, 2>& s) {
-  const int* flagged = plan.contact_slides ? exec::data(std::as_const(s.fields.node_index)) : nullptr;
+  const bool own = plan.cracks && !plan.cracks_move_again();
+  const int* flagged = own ? exec::data(std::as_const(s.fields.node_index)) : nullptr;
   const Real *mass = exec::data(std::as_const(s.grid.mass)), *q = exec::data(std::as_const(s.grid.q));
   Real* again = exec::data(s.grid.again);
   const Real least = Real(mass_cutoff(s)), dt = Real(s.clock.dt),

@@ -37,8 +37,8 @@ template <class Real>
 void advance_grid(const exec::Space&, State<Real, 2>&, bool from_velocity, double damping);
 
 /// Grid::again: [px py . .] -> [v' w] in all slots, w being what particles move by: from Grid::q = [v~ a] and v = v~ -
-/// a dt that is (v + v')/2 (Plan::cracks_move_again) or, around faces that may slide, v~ - (a + b v) dt / 2, b the
-/// particle damping.
+/// a dt that is (v + v')/2 (Plan::cracks_move_again) or, around faces that keep to the grid, v~ - (a + b v) dt / 2, b
+/// the particle damping.
 template <class Real>
 void velocities_again(const exec::Space&, const Plan&, double particle_damping, State<Real, 2>&);
 

@@ -5,8 +5,8 @@
 //   XPIC(k)   V' = S v(k)(p) + dt a
 //   FMPM(k)   V' = S v(k)(p~)
 //   position  x' = x + v~ dt - a dt^2 / 2
-// Where velocities are extrapolated a second time (MUSL, USAVG), positions change last, and but for faces that may
-// slide by the mean of the velocities before and those extrapolated again (Plan::cracks_move_again).
+// Where velocities are extrapolated a second time (MUSL, USAVG), positions change last, and but for faces that keep to
+// the grid by the mean of the velocities before and those extrapolated again (Plan::cracks_move_again).
 #pragma once
 #include "core/exec/space.hpp"
 #include "core/state/state.hpp"
