@@ -16,8 +16,8 @@ void bridge_after_update(SimulationOf<Real>& m) {
   bridge_tips(m.space, m.state, m.bridges, ContactStage::after, m.impulses);
 }
 template <class Real>
-void bridge_on_high(SimulationOf<Real>& m) {
-  bridge_tips(m.space, m.state, m.bridges, ContactStage::higher, m.impulses);
+void bridge_term(SimulationOf<Real>& m, bool last) {
+  bridge_tips(m.space, m.state, m.bridges, ContactStage::term, m.impulses, last);
 }
 template <class Real>
 void bridge_after_extrapolation(SimulationOf<Real>& m) {
@@ -27,7 +27,7 @@ void bridge_after_extrapolation(SimulationOf<Real>& m) {
 #define RIVEN_TASKS(Real)                                  \
   template void bridge_before_update(SimulationOf<Real>&); \
   template void bridge_after_update(SimulationOf<Real>&);  \
-  template void bridge_on_high(SimulationOf<Real>&);       \
+  template void bridge_term(SimulationOf<Real>&, bool);    \
   template void bridge_after_extrapolation(SimulationOf<Real>&);
 RIVEN_EACH_REAL(RIVEN_TASKS)
 #undef RIVEN_TASKS

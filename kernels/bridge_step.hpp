@@ -12,7 +12,7 @@ void bridge_before_update(SimulationOf<Real>&);
 template <class Real>
 void bridge_after_update(SimulationOf<Real>&);
 template <class Real>
-void bridge_on_high(SimulationOf<Real>&);
+void bridge_term(SimulationOf<Real>&, bool last);
 template <class Real>
 void bridge_after_extrapolation(SimulationOf<Real>&);
 

@@ -154,8 +154,8 @@ void group(const Cracks& cracks, const std::vector<Tip>& tips, double h, TipBrid
 template <class Real, ContactStage stage>
 class Bridging {
  public:
-  Bridging(State<Real, 2>& s, FieldImpulses& impulses)
-      : motion_(s.grid),
+  Bridging(State<Real, 2>& s, FieldImpulses& impulses, bool last)
+      : motion_(s.grid, last),
         notes_(impulses, s.grid.lattice),
         nodes_(exec::data(std::as_const(s.fields.nodes))),
         dt_(s.clock.dt) {}
@@ -213,8 +213,8 @@ class Bridging {
 };
 
 template <ContactStage stage, class Real>
-void run(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, FieldImpulses& impulses) {
-  const Bridging<Real, stage> bridging(s, impulses);
+void run(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, FieldImpulses& impulses, bool last = false) {
+  const Bridging<Real, stage> bridging(s, impulses, last);
   const int *start = exec::data(std::as_const(bridges.start)), *tip = exec::data(std::as_const(bridges.tip));
   const long groups = bridges.start.size() - 1;
   const long each = exec::lanes > 1 ? groups : 1;  // too little for threads of the host to be woken for
@@ -263,18 +263,19 @@ void list_bridges(const exec::Space& space, const State<Real, 2>& s, TipBridges&
 
 template <class Real>
 void bridge_tips(const exec::Space& space, State<Real, 2>& s, TipBridges& bridges, ContactStage stage,
-                 FieldImpulses& impulses) {
+                 FieldImpulses& impulses, bool last) {
   switch (stage) {
     case ContactStage::before: return run<ContactStage::before>(space, s, bridges, impulses);
     case ContactStage::after: return run<ContactStage::after>(space, s, bridges, impulses);
     case ContactStage::again: return run<ContactStage::again>(space, s, bridges, impulses);
-    case ContactStage::higher: return run<ContactStage::higher>(space, s, bridges, impulses);
+    case ContactStage::term: return run<ContactStage::term>(space, s, bridges, impulses, last);
+    case ContactStage::higher: break;  // holds what is linear in each term
   }
 }
 
 #define RIVEN_BRIDGE_TIPS(Real)                                                       \
   template void list_bridges(const exec::Space&, const State<Real, 2>&, TipBridges&); \
-  template void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&);
+  template void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&, bool);
 RIVEN_EACH_REAL(RIVEN_BRIDGE_TIPS)
 #undef RIVEN_BRIDGE_TIPS
 

@@ -64,9 +64,10 @@ inline namespace RIVEN_SIDE {
 template <class Real>
 void list_bridges(const exec::Space&, const State<Real, 2>&, TipBridges&);
 
-/// Changes their motion, the tips of a group in turns until they agree, and notes the impulses.
+/// Changes their motion, the tips of a group in turns until they agree, and notes the impulses; `last`: that of the
+/// last term of higher orders.
 template <class Real>
-void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&);
+void bridge_tips(const exec::Space&, State<Real, 2>&, TipBridges&, ContactStage, FieldImpulses&, bool last = false);
 
 }  // namespace RIVEN_SIDE
 

@@ -39,6 +39,8 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFie
     if (fields.pressing > 0)
       fields.pressed.zero();
     fields.pressing = 0;
+    if (found.links)
+      sums.links.zero();
   } else if (found.pressed && fields.pressing > 0) {
     find_slopes(space, motion, grid.lattice, fields, sums.slopes);
     found.slopes = exec::data(std::as_const(sums.slopes));
@@ -101,21 +103,22 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
       impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
   fields.pressed.resize(by_position ? grid.lattice.nodes() : 0);
-  const ContactFinder<Real> found{
-      .by = rules.detection,
-      .v_sep = rules.v_sep,
-      .v_contact = rules.v_contact,
-      .sums = node_sums(of, grid.lattice, fields, sums),
-      .normals = exec::data(fields.normals),
-      .third_normals = exec::data(fields.third_normals),
-      .area = exec::data(std::as_const(sums.area)),
-      .flagged = fields.nodes.size(),
-      .reach = 0.2 * grid.lattice.h,
-      .pressed = by_position ? exec::data(fields.pressed) : nullptr,
-      .slopes = nullptr,
-      .noise = sums.noise,
-      .prescribed = {sums.prescribed.empty() ? nullptr : exec::data(std::as_const(sums.prescribed)),
-                     sums.prescribed.empty() ? nullptr : exec::data(sums.resisted), sums.early_impulse}};
+  if (sums.keep_links)
+    sums.links.resize(fields.nodes.size());
+  const ContactFinder<Real> found{.by = rules.detection,
+                                  .v_sep = rules.v_sep,
+                                  .v_contact = rules.v_contact,
+                                  .sums = node_sums(of, grid.lattice, fields, sums),
+                                  .normals = exec::data(fields.normals),
+                                  .third_normals = exec::data(fields.third_normals),
+                                  .area = exec::data(std::as_const(sums.area)),
+                                  .flagged = fields.nodes.size(),
+                                  .reach = 0.2 * grid.lattice.h,
+                                  .pressed = by_position ? exec::data(fields.pressed) : nullptr,
+                                  .slopes = nullptr,
+                                  .noise = sums.noise,
+                                  .links = sums.keep_links ? exec::data(sums.links) : nullptr,
+                                  .prescribed = prescribed_fields(sums)};
   const auto act = [&](auto at, const char* label) {
     run<decltype(at)::value>(space, label, grid, fields, cracks, found, dt, sums, impulses, report);
   };
@@ -125,6 +128,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
     case Stage::after: return act(std::integral_constant<Stage, Stage::after>{}, "contact after");
     case Stage::again: return act(std::integral_constant<Stage, Stage::again>{}, "contact again");
     case Stage::higher: return act(std::integral_constant<Stage, Stage::higher>{}, "contact higher");
+    case Stage::term: break;  // has no gap to close: see link_fields.hpp
   }
 }
 

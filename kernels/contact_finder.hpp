@@ -22,6 +22,7 @@ struct ContactFinder {
   double* pressed;     ///< CrackFields; null where none is kept
   const Vec2* slopes;  ///< ContactSums; null where none pressed, and in the momentum update
   bool noise;          ///< ContactSums
+  FieldLinks* links;   ///< ContactSums; null where not asked for
   PrescribedFields prescribed;
 
   /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.

@@ -21,7 +21,8 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   if (!(mass[0] > 0) || !(mass[1] > 0))
     return false;
   const Meeting m = meeting_across(n, {found.normals + index, nullptr}, laws, 0, 0, 1, 1);
-  if (m.law.law == ContactLaw::ignored || found.prescribed.both_given(slot, m))
+  if (m.law.law == ContactLaw::ignored || found.prescribed.both_given(slot, m) ||
+      (stage == ContactStage::higher && found.links && found.links[index].any()))
     return false;
   const Vec2 momentum[2] = {motion.momentum_of(slot[0]), motion.momentum_of(slot[1])};
   const int a = m.above, b = m.below;
@@ -43,7 +44,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   const Verdict v = judge(found, slot, mass, dt, m, volume);
   const double momenta = norm(momentum[0]) + norm(momentum[1]), tiny = ContactNode::tolerance * momenta;
   Vec2 velocity[2], impulse[2];
-  bool touches = false;
+  bool touches = false, sticks = true;
   double now = 0;
   if (v.touch == Touch::bonds || (v.touch == Touch::sticks && reduced.x * un > tiny)) {
     touches = true;
@@ -62,6 +63,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     PairImpulse r{0, 0};
     if (v.touch == Touch::pushes)
       r = prescribed ? coupled_impulse(v.pair, yielding, across) : pair_impulse(v.pair, reduced, across);
+    sticks = std::abs(r.tau) < v.pair.friction * std::abs(r.lambda);
     if (last > 0)
       r = hold(r, last, v.touch == Touch::sticks, found.noise && m.law.friction == 0, reduced, across,
                found.apart(index, slot, mass, m));
@@ -75,6 +77,8 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   ++(touches ? report.touching : report.apart);
   if (!touches)
     return false;
+  if (stage == ContactStage::after && found.links)
+    found.links[index].link_two(sticks);
   if (stage == ContactStage::after && found.pressed && now > 0) {
     found.pressed[n.node] = now;
     ++report.pressing;

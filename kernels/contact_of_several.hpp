@@ -26,6 +26,7 @@ struct NodeContact {
   Meeting pair[most_pairs] = {};  ///< the meeting behind each of node.pair
   double gap[most_pairs] = {};
   double stick_gap[most_pairs] = {};
+  bool firm[most_pairs] = {};  ///< an interface that is too stiff for its fields to be let go in other stages
   ContactReport report{};
 
   RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice) {
@@ -111,9 +112,12 @@ struct NodeContact {
     return p * (1 / node.group_mass(f));
   }
 
-  RIVEN_INLINE void respond(ContactPair& p, const Meeting& m, const ContactArea& a) const {
+  RIVEN_INLINE void respond(int k, const ContactArea& a) {
+    ContactPair& p = node.pair[k];
+    const Meeting& m = pair[k];
     const double factor = m.share * a.area * dt * dt / node.reduced_mass(m.above, m.below);
     const double across = factor * m.law.normal_stiffness, along = factor * m.law.shear_stiffness;
+    firm[k] = std::max(across, along) >= stiff_phase2;
     if constexpr (stage == ContactStage::after) {
       const Vec2 n = m.normal, t = turned(n), u = first_velocity(m.above) - first_velocity(m.below);
       p.across = interface_response(across, dot(u, n), dot(a.opening, n), dt);
@@ -149,6 +153,20 @@ struct NodeContact {
     report.early = touched && relative_volume < found.v_sep;
   }
 
+  /// Links fields that are one now.
+  RIVEN_INLINE FieldLinks links(const Outcome& out) const {
+    Node linked = node;
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].law.law == ContactLaw::interface ? firm[k] : out.lambda[k] != 0)
+        linked.bond(pair[k].above, pair[k].below);
+    for (int i = 0; i < node.stickings; ++i)
+      if (out.stuck[i])
+        linked.bond(node.sticking[i].above, node.sticking[i].below);
+    FieldLinks links;
+    links.link_groups(linked.group);
+    return links;
+  }
+
   /// Does any of them act?
   RIVEN_INLINE bool run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
     load(n, lattice);
@@ -171,9 +189,11 @@ struct NodeContact {
     hold_prescribed();
     for (int k = 0; k < node.pairs; ++k)
       if (pair[k].law.law == ContactLaw::interface)
-        respond(node.pair[k], pair[k], found.area[entry_of(n, index, pair[k].k, found.flagged)]);
+        respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
     const Outcome out = solve(node);
     tally(out, volume);
+    if (stage == ContactStage::after && found.links)
+      found.links[index] = links(out);
     if (!out.converged)
       report.capped_node = n.node;
     bool acting = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/interface_jumps.hpp"
+#include "kernels/link_fields.hpp"
 
 namespace riven {
 
@@ -29,7 +30,7 @@ void sum_for_contact(SimulationOf<Real>& m) {
   const Plan& p = m.plan;
   contact_sums(m.space, {p.contact_volume, p.contact_position, p.contact_area}, particles(m), m.state.grid,
                m.state.fields, m.state.cracks, m.scene.thickness, m.contact_sums);
-  m.contact_sums.noise = m.early_impulse() < 1;
+  m.contact_sums.noise = m.early_impulse() < 1 || (p.transfer == Transfer::fmpm && p.order > 2);
 }
 
 template <class Real>
@@ -42,6 +43,10 @@ void contact_after_update(SimulationOf<Real>& m) {
   if (m.plan.contact_area)
     advance_jumps(m.space, m.plan.shape, m.state.domains, m.state.grid, m.state.fields, m.state.clock.dt,
                   m.state.cracks);
+}
+template <class Real>
+void link_term(SimulationOf<Real>& m, bool last) {
+  link_fields(m.space, m.state.grid, m.state.fields, m.state.clock.dt, last, m.contact_sums, m.impulses);
 }
 template <class Real>
 void contact_on_high(SimulationOf<Real>& m) {
@@ -85,6 +90,7 @@ void watch_contact(SimulationOf<Real>& m) {
   template void sum_for_contact(SimulationOf<Real>&);             \
   template void contact_before_update(SimulationOf<Real>&);       \
   template void contact_after_update(SimulationOf<Real>&);        \
+  template void link_term(SimulationOf<Real>&, bool);             \
   template void contact_on_high(SimulationOf<Real>&);             \
   template void contact_after_extrapolation(SimulationOf<Real>&); \
   template void watch_contact(SimulationOf<Real>&);

@@ -12,6 +12,10 @@ template <class Real>
 void contact_before_update(SimulationOf<Real>&);
 template <class Real>
 void contact_after_update(SimulationOf<Real>&);
+/// Terms of higher orders go together where faces touched in the update.
+template <class Real>
+void link_term(SimulationOf<Real>&, bool last);
+/// Faces that did not meet as higher orders have it.
 template <class Real>
 void contact_on_high(SimulationOf<Real>&);
 template <class Real>

@@ -16,6 +16,7 @@
 #include "core/state/crack_fields.hpp"
 #include "core/state/cracks.hpp"
 #include "core/state/grid.hpp"
+#include "kernels/field_links.hpp"
 #include "kernels/node_sums.hpp"
 
 namespace riven {
@@ -37,11 +38,13 @@ struct ContactSums {
   exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update, by more
                                       ///< than rounding; empty: not asked for
   bool keep_touched = false;          ///< asks for it
+  exec::Array<FieldLinks> links;      ///< [flagged] of fields that touched in the momentum update; empty: not asked for
+  bool keep_links = false;            ///< asks for it
   exec::Array<std::uint8_t> prescribed;  ///< [slots] bit 0: x, bit 1: y of a field's motion is prescribed; empty:
                                          ///< nowhere beside cracks
   exec::Array<Vec2> resisted;            ///< [slots] N s, what such fields resisted in this step of what contact gave
                                          ///< them, as far as particles of the others felt it; holds for those alone
-  bool noise = true;                     ///< particles keep what the grid does not see of their velocities (FLIP)
+  bool noise = true;                     ///< particles keep much that the grid does not see of their velocities
   double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
   exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
 };

@@ -33,6 +33,11 @@ struct FieldImpulses {
 
 inline namespace RIVEN_SIDE {
 
+/// The stage that impulses count as: those on terms change the velocities of higher orders.
+constexpr int kept_as(ContactStage stage) {
+  return static_cast<int>(stage == ContactStage::term ? ContactStage::higher : stage);
+}
+
 /// Where a stage writes them down.
 struct ImpulseNotes {
   std::uint8_t* acted;
@@ -48,7 +53,7 @@ struct ImpulseNotes {
   }
   /// One more impulse on a field of n = CrackFields::nodes[i].
   RIVEN_INLINE void add(ContactStage stage, long i, const NodeCracks& n, long slot, Vec2 impulse) const {
-    const int s = static_cast<int>(stage), bit = 1 << s;
+    const int s = kept_as(stage), bit = 1 << s;
     if (!(acted[i] & bit)) {
       acted[i] = static_cast<std::uint8_t>(acted[i] | bit);
       at(i, n.node)[s] = {};

@@ -11,7 +11,8 @@ enum class ContactStage {
   before,  ///< Grid::q holds [px py . .]: p changes
   after,   ///< Grid::q holds [vx vy ax ay]: v and a change
   again,   ///< Grid::again holds [px py . .]: p changes
-  higher   ///< Grid::high holds [vx vy . .]: v changes
+  higher,  ///< Grid::high holds [vx vy . .]: v changes
+  term     ///< Grid::next holds a term of the series of higher orders, [vx vy . .]: it changes
 };
 
 inline namespace RIVEN_SIDE {
@@ -24,12 +25,16 @@ struct FieldMotion {
 
   const Real* mass;
   Real* data;
+  Real* sum;  ///< to which the term that changes has been added; null if none
 
-  explicit FieldMotion(Grid<Real>& grid)
+  /// `last`: of a term, Grid::high has it, too.
+  explicit FieldMotion(Grid<Real>& grid, bool last = false)
       : mass(exec::data(std::as_const(grid.mass))),
         data(exec::data(stage == ContactStage::again    ? grid.again
                         : stage == ContactStage::higher ? grid.high
-                                                        : grid.q)) {}
+                        : stage == ContactStage::term   ? grid.next
+                                                        : grid.q)),
+        sum(stage == ContactStage::term && last ? exec::data(grid.high) : nullptr) {}
   RIVEN_INLINE Vec2 momentum_of(long slot) const {
     const Real* d = data + 4 * slot;
     return (momentum ? 1 : double(mass[slot])) * Vec2{double(d[0]), double(d[1])};
@@ -55,6 +60,11 @@ struct FieldMotion {
         d[2] = Real(d[2] + (velocity.x - d[0]) / dt);
         d[3] = Real(d[3] + (velocity.y - d[1]) / dt);
       }
+      if constexpr (stage == ContactStage::term)
+        if (sum) {
+          sum[4 * slot] += Real(velocity.x - d[0]);
+          sum[4 * slot + 1] += Real(velocity.y - d[1]);
+        }
       d[0] = Real(velocity.x);
       d[1] = Real(velocity.y);
     }

@@ -140,7 +140,8 @@ void go_back(const exec::Space& space, State<Real, 2>& s) {
 }  // namespace
 
 template <class Real>
-void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
+void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s,
+                   const std::function<void(bool last)>& hold) {
   Grid<Real>& g = s.grid;
   const bool full = plan.full_mass(), passes = !full || plan.cracks;
   if (plan.transfer == Transfer::xpic)
@@ -164,6 +165,7 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
           j == 1, last, full, passes);
       if (plan.constraints)
         prescribe_velocities(space, s, Stage::term);
+      hold(last);
       g.term.swap(g.next);
     }
   });
@@ -174,7 +176,8 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
                        });
 }
 
-#define RIVEN_HIGHER_ORDERS(Real) template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&);
+#define RIVEN_HIGHER_ORDERS(Real) \
+  template void higher_orders(const exec::Space&, const Plan&, State<Real, 2>&, const std::function<void(bool)>&);
 RIVEN_EACH_REAL(RIVEN_HIGHER_ORDERS)
 #undef RIVEN_HIGHER_ORDERS
 

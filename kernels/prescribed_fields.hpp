@@ -8,6 +8,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernels/contact_meetings.hpp"
 #include "kernels/field_impulses.hpp"
@@ -66,6 +67,12 @@ struct PrescribedFields {
     notes.add(stage, index, n, slot, impulse);
   }
 };
+
+inline PrescribedFields prescribed_fields(ContactSums& sums) {
+  const bool none = sums.prescribed.empty();
+  return {none ? nullptr : exec::data(std::as_const(sums.prescribed)), none ? nullptr : exec::data(sums.resisted),
+          sums.early_impulse};
+}
 
 /// 1 / w; 0 for 0, where nothing yields.
 RIVEN_INLINE double inverse_or_none(double w) {

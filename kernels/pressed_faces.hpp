@@ -19,7 +19,8 @@
 // With FLIP faces without friction do stay together altogether across the crack, for no more impulse than they pressed
 // with. Let go, they part at some nodes behind the front of a sharp impact; forces then close them, and the impulse
 // that stops them as they meet does work on what was parting: 5 % of the energy where the crack lies between grid
-// lines.
+// lines. So they do with FMPM from the third order on, which keeps more of what the grid does not see: in 4000 steps at
+// rest a bar with a shut crack across gained 3.5 % of its energy with FMPM(4) and 7 % with FMPM(6).
 #pragma once
 #include <algorithm>
 #include <cmath>

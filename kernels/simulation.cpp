@@ -75,6 +75,7 @@ void SimulationOf<Real>::begin() {
   if (plan.loads)
     make_loads(scene, state);
   contact_sums.keep_touched = plan.contact && (plan.fracture || plan.contact_waits);
+  contact_sums.keep_links = plan.contact && plan.higher_order() && plan.order > 1;
   sort_particles(space, plan, state);
   tally_there(space, plan, state);
   watch_figures(*this);

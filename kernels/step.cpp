@@ -139,11 +139,15 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields<Real>);
   add(p.particle_damping, "particle damping sums", "particle damping",
       [](Simulation& m) { book_particle_damping(m.space, m.particle_damping(), m.state); });
-  add(p.higher_order() && p.order > 1, "higher orders", "higher orders",
-      [](Simulation& m) { higher_orders(m.space, m.plan, m.state); });
+  add(p.higher_order() && p.order > 1, "higher orders", "higher orders", [](Simulation& m) {
+    higher_orders(m.space, m.plan, m.state, [&](bool last) {
+      if (m.plan.contact && (!m.plan.contact_waits || m.contact_watch.on))
+        link_term(m, last);
+      if (m.plan.fracture)
+        bridge_term(m, last);
+    });
+  });
   add_contact(p.higher_order() && p.order > 1, "contact on higher orders", "higher orders", contact_on_high<Real>);
-  add(p.higher_order() && p.order > 1 && p.fracture, "bridge tips on higher orders", "higher orders",
-      bridge_on_high<Real>);
   add(!again, "grid to particle", "",
       [before](Simulation& m) { grid_to_particle(m.space, m.plan, m.state, rule(m), !before); });
   add(again, "grid to particle, extrapolate again", "", [](Simulation& m) {
