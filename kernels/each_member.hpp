@@ -120,6 +120,10 @@ void each_member(Tip& t, F&& f) {
   f("way_length", t.way.length);
   f("way_ahead", t.way.ahead);
   f("way_seen", t.way.seen);
+  f("way_mean", t.way.mean[0]);
+  f("way_mean_again", t.way.mean[1]);
+  f("way_swing", t.way.swing);
+  f("way_known", t.way.known);
   f("checks", t.checks);
   f("mean_I", t.mean_I);
   f("mean_II", t.mean_II);

@@ -23,7 +23,8 @@ namespace {
 
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
-constexpr double rest = 20;        ///< segments' time without growth after which a tip has arrested
+constexpr double still = 20;       ///< segments' time without growth after which a tip has arrested
+constexpr double swings = 400;     ///< segments' time within which a tip at rest forgets what it has met
 constexpr double unseen = 4;  ///< cells that a wave may go before a tip at rest is looked at again: its least contour
 
 template <class Real>
@@ -43,6 +44,7 @@ class Growth {
     const double wave = rayleigh_speed(scene_.materials[static_cast<size_t>(tip.material)], scene_.plane);
     limit_ = rule_.speed_limit > 0 ? rule_.speed_limit : wave;
     start_limit_ = std::max(limit_, wave);
+    memory_ = swings * particle_ / start_limit_;
     now_ = s_.clock.time + s_.clock.dt;
   }
 
@@ -75,14 +77,21 @@ class Growth {
   }
 
  private:
-  /// What drives a tip that runs: in the proportion of the modes since it grew last, which turns with its crack, as
-  /// much as on the last cells of its way.
+  /// What drives a tip that runs or has run.
   void take_mean() {
-    if (!tip_.running || !tip_.sound) {
+    if (!tip_.running || !tip_.sound)
       tip_.checks = 0;
+    if (!tip_.sound || (!tip_.running && tip_.length == 0))
       tip_.way.seen = now_;
-      return;
-    }
+    else if (tip_.running)
+      drive_on();
+    else
+      drive_at_rest();
+  }
+
+  /// In the proportion of the modes since it grew last, which turns with its crack, as much as on the last cells of its
+  /// way.
+  void drive_on() {
     follow(tip_.way, tip_.release, now_);
     tip_.release = mean_release(tip_.way);
     const double part = 1. / static_cast<double>(++tip_.checks);
@@ -93,6 +102,16 @@ class Growth {
     const double scale = of_means > 0 ? std::sqrt(tip_.release / of_means) : 0;
     tip_.drive_I = scale * tip_.mean_I;
     tip_.drive_II = scale * tip_.mean_II;
+  }
+
+  /// In the proportion of the modes now.
+  void drive_at_rest() {
+    const double offered = offered_at_rest(tip_.way, tip_.release, memory_, now_);
+    const double scale = tip_.release > 0 ? std::sqrt(offered / tip_.release) : 0;
+    tip_.way.seen = now_;
+    tip_.release = offered;
+    tip_.drive_I *= scale;
+    tip_.drive_II *= scale;
   }
 
   /// The way in which the crack grows now, if it does; `since`, s: the last check. Where no contour is sound what is
@@ -190,9 +209,11 @@ class Growth {
     if (!tip_.running)
       return;
     tip_.speed = std::min(tip_.speed, particle_ / since);
-    if (since * limit_ > rest * particle_ && !(tip_.sound && tip_.load >= 1)) {
+    if (since * limit_ > still * particle_ && !(tip_.sound && tip_.load >= 1)) {
       tip_.running = false;
       tip_.speed = 0;
+      const double load = load_now();
+      stop(tip_.way, load > 0 ? tip_.release / (load * load) : 0, memory_, now_);
       record(tip_, CrackEvent::Kind::arrest, around_.place, -1);
     }
   }
@@ -230,8 +251,7 @@ class Growth {
       pass(tip_.way, segment, scene_.cell);
     } else {
       tip_.running = true;
-      tip_.way = {};
-      tip_.way.seen = now_;
+      start(tip_.way, tip_.release, now_);
       tip_.due = s_.clock.step + check_interval(particle_, limit_, s_.clock.dt);
       record(tip_, CrackEvent::Kind::start, around_.place, -1);
     }
@@ -276,6 +296,7 @@ class Growth {
   const AroundTip<Real> around_;
   double thickness_;
   double limit_, start_limit_;  ///< m/s, of a tip that runs, and of what one at rest may have come to
+  double memory_;               ///< s, of a tip at rest
   double now_;                  ///< at the end of this step
 };
 

@@ -7,13 +7,16 @@
 namespace riven {
 
 /// What a tip that runs goes by: sums along its way, in which what was before counts the less the farther it has run
-/// since (tip_motion.hpp).
+/// since, and what it recalls at rest (tip_motion.hpp).
 struct TipWay {
-  double time = 0;     ///< s
-  double release = 0;  ///< J s/m^2, of Tip::release over that time
-  double length = 0;   ///< m, grown in it
-  double ahead = 0;    ///< m, by which the tip has run beyond the end of its crack, which grows by segments
-  double seen = 0;     ///< s, time up to which it was followed
+  double time = 0;          ///< s
+  double release = 0;       ///< J s/m^2, of Tip::release over that time
+  double length = 0;        ///< m, grown in it
+  double ahead = 0;         ///< m, by which the tip has run beyond the end of its crack, which grows by segments
+  double seen = 0;          ///< s, time up to which it was followed
+  double mean[2] = {0, 0};  ///< J/m^2, of Tip::release, as a tip forgets in time, and the same of this
+  double swing = 0;         ///< J^2/m^4, of the square by which it was off from what they said, at rest
+  double known = 0;         ///< s, time up to which these have it
 };
 
 struct Tip {

@@ -67,6 +67,48 @@ TEST(TipMotion, FollowsTheEquationOfMotionThroughSwings) {
   EXPECT_NEAR(at, wave * (now - T * std::log1p(now / T)), 1.5 * cell);
 }
 
+// A load that rises steadily and shakes: the tip goes by what rises.
+TEST(TipMotion, GoesByWhatRisesAtRestAndNotByWhatSwings) {
+  constexpr double step = 2e-6, forgets = 220e-6, period = 90e-6;
+  TipWay way;
+  start(way, 50, step);
+  double worst = 0, now = step, offered = 0;
+  while (now < 5e-3) {
+    now += step;
+    const double rises = 50 + 1e4 * now;
+    offered = offered_at_rest(way, rises + 15 * std::sin(2 * std::numbers::pi * now / period), forgets, now);
+    if (now > 2e-3)
+      worst = std::max(worst, std::abs(offered - rises));
+  }
+  EXPECT_LT(worst, 3.5);
+  // a wave
+  now += step;
+  EXPECT_EQ(offered_at_rest(way, 250, forgets, now), 250);
+  // nothing is offered by a tip that shuts
+  for (int k = 0; k < 1000; ++k)
+    offered = offered_at_rest(way, -20, forgets, now += step);
+  EXPECT_EQ(offered, 0);
+}
+
+TEST(TipMotion, RecallsTheMeanOfItsWayOnceItStops) {
+  TipWay way;
+  start(way, 80, 1e-6);
+  follow(way, 100, 501e-6);
+  TipWay at_once = way, later = way;
+  stop(at_once, 200, 10e-6, 501e-6);
+  EXPECT_NEAR(offered_at_rest(at_once, 100, 10e-6, 501.1e-6), 100, 1e-6);
+  stop(later, 200, 10e-3, 501e-6);  // hardly longer than it has known since it started
+  EXPECT_NEAR(later.mean[0], 80 + 20 * -std::expm1(-0.05), 1e-9);
+  TipWay blind;  // never followed
+  start(blind, 80, 1e-6);
+  stop(blind, 200, 10e-6, 20e-6);
+  EXPECT_EQ(blind.mean[0], 80);
+  // what set it running is over
+  stop(later = way, 60, 10e-3, 501e-6);
+  EXPECT_LE(offered_at_rest(later, 30, 10e-3, 502e-6), 60);
+  EXPECT_EQ(offered_at_rest(later, 70, 10e-3, 503e-6), 70);
+}
+
 // At the speed of waves itself 1 - v / c vanishes.
 TEST(TipMotion, SlowsFromTheSpeedOfWavesWhereLittleDrivesIt) {
   const TipWay way = steady(wave, 120, 0.01e-6);

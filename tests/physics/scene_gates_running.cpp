@@ -255,5 +255,34 @@ TEST(RunningTip, StopsWhereTheStripHoldsLessThanItsToughness) {
   }
 }
 
+// The arms of a double cantilever beam are drawn apart. Each segment shakes it, and by the peaks of what it is then
+// offered the tip would grow at 0.85 of its toughness.
+TEST(StableGrowth, TakesUpItsToughness) {
+  const Scene s = shipped("stable_growth", {"output.frames=0"});
+  const test::ChosenSpace space;
+  Simulation m(s, space);
+  const Tip& tip = m.state.tips[m.state.tips[0].open ? 0 : 1];
+  double first = 0, lost_first = 0;
+  const auto lost = [&m] {
+    m.take_stock();
+    const Energy& e = m.state.ledger.energy;
+    return e.external_work - e.kinetic - e.strain - e.damping;
+  };
+  while (!m.finished()) {
+    m.step();
+    if (first == 0 && m.state.clock.time > 0.5 * s.end_time) {
+      first = tip.length;
+      lost_first = lost();
+    }
+  }
+  const double area = (tip.length - first) * s.thickness, taken = (lost() - lost_first) / area / s.growth->toughness;
+  report("stable growth: way of the tip in the second half of the run, mm", 1e3 * (tip.length - first), "15 to 19");
+  report("stable growth: energy lost per new area over the toughness", taken, "0.9 to 1.03");
+  EXPECT_GT(tip.length - first, 15e-3);
+  EXPECT_LT(tip.length - first, 19e-3);
+  EXPECT_GT(taken, 0.9);
+  EXPECT_LT(taken, 1.03);
+}
+
 }  // namespace
 }  // namespace riven
