@@ -46,7 +46,7 @@ file=$scene
 [ -f "$file" ] || file=cases/scenes/$scene.toml
 pictures=$(sed -n 's/^# draw: *//p' "$file")
 riven=$PWD/$build/riven
-while read -r -a picture; do
-  (cd "$out" && "$riven" picture . "${picture[@]}")
+while read -r picture; do
+  (cd "$out" && xargs "$riven" picture . <<<"$picture")  # which takes quotes as a shell does
 done <<<"$pictures"
 say "Results are in $out"
