@@ -27,6 +27,12 @@ constexpr double resolved_before_bend = 2.5;
 /// Share of an edge of the contour that must lie in the solid, besides the opening of the crack itself where it passes;
 /// there less will do where there is no room to draw the edge in.
 constexpr double least_filled = 0.9, least_filled_across = 0.4;
+/// By how much the shares of edges may differ that are drawn in at once.
+constexpr double alike_filled = 0.1;
+
+/// Cells from a tip from which on an edge that has been drawn in to the border of the solid is drawn in once more: in
+/// the cell beside a border, above all a loaded one, stresses are off by tens of per cent.
+constexpr double clear_of_border = 2.5;
 
 std::vector<Vec2> positions_of(const Cracks& cracks, const std::vector<Tip>& tips) {
   std::vector<Vec2> list;
@@ -153,25 +159,35 @@ void TipContours<Real>::review(DueTip& d, const TipTask& task) const {
   }
 }
 
-/// Draws those edges of the contour that lie outside of the solid in by a cell, where there is room.
+/// Draws those edges of the contour that lie outside of the solid in by a cell, where there is room: the emptiest at
+/// first, as an edge along the solid may be empty beyond its corners alone.
 template <class Real>
 void TipContours<Real>::draw_in(DueTip& d, const TipTask& task) const {
   const double h = m_.scene.cell;
+  bool full[4], room[4];
+  double least = 1;
+  for (int e = 0; e < 4; ++e) {
+    const double filled = task.sums.filled[e], reach = task.domain.reach[e];
+    const std::optional<double> opening = filled < least_filled ? opening_within(task, *d.tip, e) : std::nullopt;
+    full[e] = filled + opening.value_or(0) / task.domain.length(e) >= least_filled ||
+              (reach <= 1.5 * h && opening && filled >= least_filled_across);
+    room[e] = reach > 1.5 * h;
+    if (!full[e] && room[e])
+      least = std::min(least, filled);
+  }
   d.settled = true;
   for (int e = 0; e < 4; ++e) {
-    const double filled = task.sums.filled[e];
-    if (filled >= least_filled)
+    const bool beside_border = full[e] && d.drawn_in[e] && task.domain.reach[e] > clear_of_border * h;
+    if (full[e] && !beside_border)
       continue;
-    const std::optional<double> opening = opening_within(task, *d.tip, e);
-    if (opening && filled + *opening / task.domain.length(e) >= least_filled)
+    d.settled = false;
+    if (!room[e])
       continue;
-    if (task.domain.reach[e] > 1.5 * h) {
-      d.most[e] = std::max(h, task.domain.reach[e] - h);
-      d.to_draw_in = !d.near;
-      d.settled = false;
-    } else if (!opening || filled < least_filled_across) {
-      d.settled = false;
-    }
+    d.to_draw_in = !d.near;
+    if (!full[e] && task.sums.filled[e] > least + alike_filled)
+      continue;
+    d.drawn_in[e] = !full[e];
+    d.most[e] = std::max(h, task.domain.reach[e] - h);
   }
 }
 
