@@ -143,5 +143,23 @@ TEST(TipOnTheGrid, DISABLED_MayBeTurnedOnHalfMillimetreCells) {
   expect_same_when_turned(0.5 * mm);
 }
 
+// A slanted crack within a plate of 25 cells, whose tips are 7 and 8 cells from its sides: contours that would leave
+// the plate on both sides are drawn in there, and stay large where the plate goes on.
+TEST(SlantedCrack, HasOneJByContoursThatAreDrawnIn) {
+  Plate plate("sent", {"grid.cell=2 mm", "grid.lower=[\"-6 mm\", \"-56 mm\"]", "grid.upper=[\"56 mm\", \"56 mm\"]",
+                       "grip.top.rectangle.upper.1=52 mm", "grip.bottom.rectangle.lower.1=-52 mm",
+                       "crack.0.points=" + std::string(R"([["14.2 mm", "-10.3 mm"], ["34.9 mm", "10.4 mm"]])"),
+                       "output.frames=0"});
+  print("slanted crack", plate.hold());
+  for (const size_t tip : {0u, 1u}) {
+    const double J = plate.tip(8, JMethod::fijc_adaptive, tip).J;
+    for (const int contour : {12, 16, 20, 24, 32, 40, 60}) {
+      const Tip t = plate.tip(contour, JMethod::fijc_adaptive, tip);
+      expect_J(fmt::format("slanted crack, contour of {} cells", contour), t.J, J, 0.03);
+      EXPECT_TRUE(t.sound);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace riven
