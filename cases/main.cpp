@@ -90,7 +90,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "riven: {}\n", e.what());
     return static_cast<int>(e.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "riven: out of memory\n  try:     larger cells, or fewer particles_per_cell\n");
+    fmt::print(stderr,
+               "riven: out of memory\n  try:     larger cells, or fewer particles_per_cell; riven plan SCENE says what "
+               "the arrays take\n");
     return static_cast<int>(Exit::internal);
   } catch (const std::system_error& e) {
     fmt::print(stderr, "riven: {}\n", e.what());

@@ -71,6 +71,9 @@ void refuse_to_remove_results(const fs::path& folder, const std::string& scene) 
 
 CheckpointFile find_checkpoint(const fs::path& at) {
   std::error_code error;
+  if (!fs::exists(at, error))
+    fail({Exit::file, "there is no such folder or file to restart from", at.string(), "", newest,
+          "the folder of results of a run that was interrupted"});
   if (!fs::is_directory(at, error))
     return CheckpointFile(at);
   const fs::path file = at / newest, before = at / previous;

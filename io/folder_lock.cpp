@@ -26,7 +26,7 @@ namespace {
         "another folder with -o, or wait for that run to end"});
 }
 
-/// Whether the open file is still the one of this name: who held it before may have removed it just now.
+/// Whether the open file is still the one of this name: another run, or a person, may have removed or moved it.
 bool in_place(int descriptor, const fs::path& path) {
   struct stat open_file {
   }, named{};
@@ -54,8 +54,16 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / ".lock") {
     static_cast<void>(write_all(descriptor_, process.data(), process.size()));
 }
 
+void FolderLock::require_held() const {
+  if (!in_place(descriptor_, path_))
+    fail({Exit::file, "this folder has been moved or removed while the run wrote into it", path_.parent_path().string(),
+          "", "a folder that stays where it is until the run has ended",
+          "riven run --restart with the folder where it is now, if that holds a checkpoint"});
+}
+
 FolderLock::~FolderLock() {
-  ::unlink(path_.c_str());
+  if (in_place(descriptor_, path_))
+    ::unlink(path_.c_str());
   ::close(descriptor_);
 }
 

@@ -11,6 +11,8 @@ class FolderLock {
   /// Makes the folder where there is none. Throws Error (file), with the number of the other process, when it is held.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
+  /// Throws Error (file) when the folder is no longer where it was: another run may have begun in one of its name.
+  void require_held() const;
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 

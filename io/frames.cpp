@@ -82,7 +82,10 @@ void FrameWriter::write_indices() const {
 }
 
 void FrameWriter::finish() const {
-  assemble_frames(folder_);
+  const auto found = static_cast<std::size_t>(assemble_frames(folder_));
+  if (found < times_.size())
+    fmt::print(stderr, "riven: warning: {} of {} frames are missing, or cannot be read: {}\n", times_.size() - found,
+               times_.size(), (folder_ / "frames").string());
 }
 
 void bring_frames(const fs::path& from, const fs::path& to, int count) {

@@ -13,7 +13,7 @@
 namespace riven {
 namespace {
 
-constexpr double interval = 1;  // s between two lines
+constexpr double on_terminal = 1;  // s between two lines
 
 /// 1234567 -> "1,234,567"
 std::string grouped(long n) {
@@ -78,12 +78,14 @@ std::string progress_line(const ProgressState& p) {
                      format_time(p.dt), p.limiter, 1e-6 * p.particle_steps_per_second, format_duration(p.seconds_left));
 }
 
-Progress::Progress(double start_time, double end_time, long particles, bool quiet, int descriptor)
+Progress::Progress(double start_time, double end_time, long particles, bool quiet, int descriptor, double between)
     : start_time_(start_time),
       end_time_(end_time),
       particles_(particles),
-      active_(!quiet && ::isatty(descriptor) == 1),
+      active_(!quiet),
       descriptor_(descriptor),
+      terminal_(::isatty(descriptor) == 1),
+      interval_(terminal_ ? on_terminal : between),
       began_(now()),
       last_written_(began_) {}
 
@@ -97,8 +99,8 @@ void Progress::update(long step, double time, double dt, std::string_view limite
   const double clock = now();
   if (last_step_ < 0)
     last_step_ = first_step_ = step - 1;
-  const bool at_end = time >= end_time_;
-  if (clock - last_written_ < interval && !at_end)
+  const bool at_end = terminal_ && time >= end_time_;
+  if (clock - last_written_ < interval_ && !at_end)
     return;
   // at the end the mean of the run is worth more than that of its last moment
   const long steps = step - (at_end ? first_step_ : last_step_);
@@ -107,7 +109,7 @@ void Progress::update(long step, double time, double dt, std::string_view limite
   const double left = at_end ? 0 : (clock - began_) * (1 - done) / done;
   const double rate = spent > 0 ? static_cast<double>(steps) * static_cast<double>(particles_) / spent : 0;
   write(progress_line({step, time, end_time_, dt, limiter, rate, left}));
-  line_open_ = true;
+  line_open_ = terminal_;
   last_step_ = step;
   last_written_ = clock;
 }
@@ -118,9 +120,10 @@ void Progress::finish() {
   line_open_ = false;
 }
 
-/// Over the line before; cut to the width of the terminal, since a line that wraps cannot be written over.
+/// On a terminal over the line before; cut to the width of the terminal, since a line that wraps cannot be written
+/// over.
 void Progress::write(const std::string& text) const {
-  const std::string line = "\r" + text.substr(0, columns_of(descriptor_) - 1) + "\x1b[K";
+  const std::string line = terminal_ ? "\r" + text.substr(0, columns_of(descriptor_) - 1) + "\x1b[K" : text + "\n";
   write_all(descriptor_, line.data(), line.size());
 }
 

@@ -1,4 +1,4 @@
-// One line that says how far a run has come, on a terminal and nowhere else.
+// A line that says how far a run has come: on a terminal one that is written over, elsewhere a new one now and then.
 #pragma once
 #include <string>
 #include <string_view>
@@ -23,13 +23,14 @@ std::string progress_line(const ProgressState& state);
 
 class Progress {
  public:
-  /// Writes to a descriptor, by default standard error; says nothing when quiet or when that is no terminal.
-  Progress(double start_time, double end_time, long particles, bool quiet, int descriptor = 2);
+  /// Writes to a descriptor, by default standard error, unless quiet. `between`: s between two lines where that is no
+  /// terminal.
+  Progress(double start_time, double end_time, long particles, bool quiet, int descriptor = 2, double between = 60);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Called after every step; writes at most once a second, and at the end.
+  /// Called after every step. On a terminal it writes once a second, and at the end.
   void update(long step, double time, double dt, std::string_view limiter);
   /// Ends the line, so that what follows begins a new one. Called by the destructor too.
   void finish();
@@ -41,6 +42,8 @@ class Progress {
   long particles_;
   bool active_;
   int descriptor_;
+  bool terminal_;
+  double interval_;  ///< s
   bool line_open_ = false;
   long last_step_ = -1, first_step_ = 0;
   double began_, last_written_;  ///< wall clock, s

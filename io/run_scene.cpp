@@ -75,9 +75,8 @@ class Run {
   /// Opens the files of results with what the run has so far; what is in them beyond that is taken away.
   void open_results() {
     record_.emplace(options_.folder, m_, probes_, so_far_.history);
-    if (!options_.restart)  // these are of a run that has ended: one that is killed leaves none
-      for (const char* of_the_end : {"summary.json", "crack_paths.csv"})
-        std::filesystem::remove(options_.folder / of_the_end);
+    for (const char* of_the_end : {"crack_paths.csv", "summary.json"})  // one that is killed leaves none
+      std::filesystem::remove(options_.folder / of_the_end);
     frames_.emplace(options_.folder, m_.scene, so_far_.frames);
     so_far_.history.clear();  // is in the file, and may be large
     if (m_.plan.growth || m_.plan.contact_waits || m_.scene.limits.retries > 0)
@@ -222,6 +221,7 @@ class Run {
   void write_frame() {
     timed(frames, [&] {
       finish_frame();
+      lock_.require_held();
       const double time = m_.state.clock.time;
       if (!m_.space.on_device())
         return frames_->write(time, m_.state.particles, m_.state.cracks);
@@ -239,6 +239,7 @@ class Run {
   void write_checkpoint() {
     timed(checkpoints, [&] {
       finish_frame();
+      lock_.require_held();
       checkpoints_.write(m_, {wall_seconds(), frames_->times(), so_far_.frame_interval, so_far_.frames_due,
                               record_->rows(), so_far_.retries});
     });
@@ -261,6 +262,7 @@ class Run {
 
   Summary close(const char* status, const std::string& message) {
     finish_frame();
+    lock_.require_held();
     frames_->finish();
     if (events_)
       events_->write(m_.state.events, m_.state.cracks);

@@ -242,20 +242,30 @@ int assemble_vtkhdf(const fs::path& folder, const std::string& prefix, const fs:
   if (frames.empty())
     return 0;
   CommonArrays of_points, of_cells;
+  std::vector<fs::path> sound;
   for (const fs::path& path : frames) {
-    const auto file = std::make_shared<const HdfFile>(open_frame(path));
-    of_points.meet(list_arrays(file, root + "/PointData"));
-    of_cells.meet(list_arrays(file, root + "/CellData"));
+    try {
+      const auto file = std::make_shared<const HdfFile>(open_frame(path));
+      of_points.meet(list_arrays(file, root + "/PointData"));
+      of_cells.meet(list_arrays(file, root + "/CellData"));
+      sound.push_back(path);
+    } catch (const Error& e) {
+      if (e.code() != Exit::file)
+        throw;
+      fmt::print(stderr, "riven: warning: {}\n  instead: {} without this frame\n", e.what(), out.string());
+    }
   }
+  if (sound.empty())
+    return 0;
   VtkHdfWriter writer(out);
-  for (const fs::path& path : frames) {
+  for (const fs::path& path : sound) {
     TimedPolyData frame = look_into_frame(path);
     of_points.keep(frame.data.point_arrays);
     of_cells.keep(frame.data.cell_arrays);
     writer.append(std::move(frame.data), frame.time);
   }
   writer.commit();
-  return static_cast<int>(frames.size());
+  return static_cast<int>(sound.size());
 }
 
 }  // namespace riven

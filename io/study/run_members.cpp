@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/exec/space.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checkpoint_store.hpp"
 #include "io/child.hpp"
 #include "io/stop_request.hpp"
 #include "io/text_file.hpp"
@@ -67,7 +68,13 @@ class Runner {
  public:
   Runner(const Study& study, const std::string& scene, const std::vector<Run>& runs, const Store& store,
          const std::function<void(const Advance&)>& report)
-      : study_(study), scene_(scene), runs_(runs), store_(store), report_(report), records_(runs.size()) {
+      : study_(study),
+        scene_(scene),
+        runs_(runs),
+        store_(store),
+        report_(report),
+        records_(runs.size()),
+        cut_short_(runs.size()) {
     const int cores = exec::available_threads();
     threads_ = study.threads > 0 ? study.threads : study.timing ? cores : 1;
     abreast_ = study.timing ? 1 : static_cast<size_t>(std::max(1, cores / threads_));
@@ -105,9 +112,15 @@ class Runner {
     if (!runs_[r].refused.empty()) {
       records_[r].status = "refused";
       records_[r].message = runs_[r].refused;
-    } else if (std::optional<Record> kept = store_.find(runs_[r]); kept && !kept->cut_short()) {
-      records_[r] = std::move(*kept);
+    } else if (std::optional<Record> kept = store_.find(runs_[r]); kept && !(kept->done() && lost(r))) {
+      (kept->cut_short() ? cut_short_[r] : records_[r]) = std::move(*kept);
     }
+  }
+
+  /// Is what the results are taken from no longer there?
+  bool lost(size_t r) const {
+    std::error_code error;
+    return fs::file_size(store_.results(runs_[r]) / "history.csv", error) == 0 || error;
   }
 
   /// Is the run to be done in this round?
@@ -123,12 +136,31 @@ class Runner {
     return round_ == 0 ? results : results / "again";
   }
 
+  /// Is there a checkpoint from which a run that was cut short can go on? A run that is timed has to say for how long
+  /// it ran before: a killed one does not.
+  bool goes_on(size_t r) const {
+    const Record& before = cut_short_[r];
+    if (round_ > 0 || before.status == "crashed" || (study_.timing && before.wall.empty()))
+      return false;
+    try {
+      find_checkpoint(folder(r));
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
   void begin(size_t r) {
     const fs::path to = folder(r);
     make_folder(to);
-    std::vector<std::string> command{
-        own_program().string(),  "run", scene_, "-o", to.string(), "--quiet", "--overwrite", "--threads",
-        std::to_string(threads_)};
+    std::vector<std::string> command{own_program().string(), "run", scene_, "-o", to.string(), "--quiet"};
+    if (goes_on(r)) {
+      command.insert(command.end(), {"--restart", to.string()});
+    } else {
+      command.emplace_back("--overwrite");
+      cut_short_[r] = {};
+    }
+    command.insert(command.end(), {"--threads", std::to_string(threads_)});
     for (const std::string& s : runs_[r].set)
       command.insert(command.end(), {"--set", s});
     under_way_[children_.start(command, to / "messages.txt")] = r;
@@ -147,6 +179,10 @@ class Runner {
       fail({Exit::file, "a run of the study could not write its results", from.string(), "", "",
             "see to that, and start the study again: what is done is kept\n" + fresh.message});
     if (round_ == 0) {
+      for (const double wall : cut_short_[r].wall)
+        fresh.wall.front() += wall;
+      for (const double cpu : cut_short_[r].cpu)
+        fresh.cpu.front() += cpu;
       records_[r] = std::move(fresh);
     } else if (!fresh.done()) {
       fs::remove_all(from);
@@ -196,8 +232,8 @@ class Runner {
   const std::vector<Run>& runs_;
   const Store& store_;
   const std::function<void(const Advance&)>& report_;
-  std::vector<Record> records_;
-  std::vector<size_t> order_;  ///< of the runs, by their work
+  std::vector<Record> records_, cut_short_;  ///< of the runs; of those that a study before had begun
+  std::vector<size_t> order_;                ///< of the runs, by their work
   StopRequest stop_{std::numeric_limits<double>::infinity(), StopRequest::Waits::end};
   Children children_;
   std::map<pid_t, size_t> under_way_;

@@ -161,8 +161,8 @@ TEST(ResultsProgress, TheLineSaysHowFarHowFastAndHowLong) {
 }
 
 /// What a run of three steps writes to a descriptor.
-void run(int descriptor, bool quiet) {
-  Progress progress(0, 3, 1000, quiet, descriptor);
+void run(int descriptor, bool quiet, double between = 60) {
+  Progress progress(0, 3, 1000, quiet, descriptor, between);
   for (int step = 1; step <= 3; ++step)
     progress.update(step, step, 1, "wave speed");
 }
@@ -199,11 +199,18 @@ TEST(ResultsProgress, ATerminalSeesTheEndAndANewLine) {
   close(terminal);
 }
 
-TEST(ResultsProgress, AFileSeesNothing) {
+TEST(ResultsProgress, AFileSeesALineNowAndThen) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   run(ends[1], false);
   EXPECT_EQ(read_all(ends[0]), "");
+  run(ends[1], true, 0);
+  EXPECT_EQ(read_all(ends[0]), "");
+  run(ends[1], false, 0);
+  const std::string seen = read_all(ends[0]);
+  EXPECT_TRUE(seen.starts_with(" 33 %  step 1")) << seen;
+  EXPECT_NE(seen.find("\n 66 %  step 2"), std::string::npos) << seen;
+  EXPECT_TRUE(seen.ends_with("left\n")) << seen;
   close(ends[0]);
   close(ends[1]);
 }

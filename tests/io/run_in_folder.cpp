@@ -11,6 +11,8 @@
 
 #include "io/atomic_file.hpp"
 #include "io/folder_lock.hpp"
+#include "io/frames.hpp"
+#include "io/hdf_file.hpp"
 #include "io/stop_request.hpp"
 #include "io/vtkhdf.hpp"
 #include "tests/io/faults.hpp"
@@ -148,6 +150,53 @@ TEST(RunInFolder, ASecondRunIsRefusedAndNamesTheFirst) {
   const Program third(run.arguments({"--wall-limit", "50 ms"}), run.printed());
   run.expect(third.end(), 5, {"the wall limit"});
   EXPECT_EQ(sample::leftovers(run.results()), 0);
+}
+
+TEST(RunInFolder, ARunWhoseFolderIsMovedLeavesTheOneThatIsThereNowAlone) {
+  const LongRun run;
+  const Program first(run.arguments(), run.folder / "first");
+  run.wait_until_it_runs();
+  const std::filesystem::path moved = run.folder / "moved";
+  std::filesystem::rename(run.results(), moved);
+  const Program second(run.arguments(), run.printed());
+  run.wait_until_it_runs();
+  first.signal(SIGTERM);
+  EXPECT_EQ(first.end(), 4);
+  const std::string said = sample::text_of(run.folder / "first");
+  EXPECT_NE(said.find("moved or removed while the run wrote into it"), std::string::npos) << said;
+  EXPECT_FALSE(std::filesystem::exists(run.results() / "summary.json"));
+  EXPECT_FALSE(std::filesystem::exists(moved / "summary.json"));
+  second.signal(SIGTERM);
+  run.expect(second.end(), 5, {"SIGTERM"});
+  EXPECT_EQ(run.summary()["status"], "interrupted");
+}
+
+TEST(RunInFolder, ARestartThatIsKilledLeavesNoEndOfTheRunBefore) {
+  const LongRun run;
+  const Program first(run.arguments({"--wall-limit", "50 ms"}), run.printed());
+  run.expect(first.end(), 5, {});
+  EXPECT_TRUE(std::filesystem::exists(run.results() / "summary.json"));
+  const Program again({"run", "--restart", run.results().string(), "--quiet"}, run.printed());
+  for (int tries = 0; std::filesystem::exists(run.results() / "summary.json") && tries < 10000; ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  again.signal(SIGKILL);
+  EXPECT_EQ(again.end(), -SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(run.results() / "summary.json"));
+  EXPECT_FALSE(std::filesystem::exists(run.results() / "crack_paths.csv"));
+}
+
+TEST(RunInFolder, AFrameThatCannotBeReadIsLeftOut) {
+  const LongRun run;
+  const std::vector<std::string> more{"--set", "output.frames=1000", "--set", "solver.time=20 ns"};
+  const Program first(run.arguments(more), run.printed());
+  run.expect(first.end(), 0, {});
+  const std::filesystem::path frames = run.results() / "frames";
+  const std::size_t all = list_frames(frames, "particles").size();
+  ASSERT_GT(all, 3u);
+  std::filesystem::resize_file(frames / "particles_000001.vtkhdf", 1000);
+  std::filesystem::remove(frames / "particles_000002.vtkhdf");
+  EXPECT_EQ(assemble_frames(run.results()), static_cast<int>(all) - 2);
+  EXPECT_NO_THROW(HdfFile::open(run.results() / "particles.vtkhdf"));
 }
 
 TEST(RunInFolder, AnInterruptedRunIsNotBegunAnewUnlessToldTo) {

@@ -305,6 +305,40 @@ TEST_F(StudyRuns, HandAStopToTheRunUnderWay) {
   EXPECT_EQ(Json::parse(sample::text_of(run / "summary.json"))["status"], "interrupted");
 }
 
+/// A run that takes longer than the study may: it goes on from where it was, and its time adds up.
+TEST_F(StudyRuns, GoOnWithTheRunThatWasUnderWay) {
+  write("set = [\"solver.time=5 s\"]\n");
+  fs::path run;
+  const auto computes = [&](const fs::path& folder) {
+    return fs::exists(folder / ".lock") && fs::exists(folder / "history.csv") && !fs::exists(folder / "summary.json");
+  };
+  const auto under_way = [&] {
+    if (fs::is_directory(out_ + "/runs"))
+      for (const auto& of : fs::directory_iterator(out_ + "/runs"))
+        if (computes(of.path()) && !records().empty())  // one that is unstable has ended
+          run = of.path();
+    return !run.empty();
+  };
+  long steps = 0;
+  double seconds = 0;
+  for (int slot = 0; slot < 3; ++slot) {
+    Children children;
+    const pid_t study =
+        children.start({RIVEN_PROGRAM, "study", (folder_ / "cells.toml").string(), "-o", out_}, folder_ / "log.txt");
+    while (slot == 0 ? !under_way() : !computes(run))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(slot == 0 ? 1000 : 20));
+    kill(study, SIGTERM);
+    EXPECT_EQ(children.wait().code, 5);
+    const Json record = Json::parse(sample::text_of(run / "record.json"));
+    EXPECT_EQ(record["status"], "interrupted") << sample::text_of(folder_ / "log.txt");
+    EXPECT_GT(record["steps"].get<long>(), steps);
+    EXPECT_GT(record["wall_seconds"].at(0).get<double>(), seconds);
+    steps = record["steps"];
+    seconds = record["wall_seconds"].at(0);
+  }
+}
+
 /// What is asked for is listed, and neither done nor written.
 TEST_F(StudyRuns, AreListedBeforeTheyAreDone) {
   write("set = [\"output.frames=1\"]\n");
