@@ -262,6 +262,7 @@ std::vector<Doubt> doubts(const Scene& s) {
   doubt_materials(s, list);
   doubt_toughness(s, list);
   doubt_solids(s, list);
+  doubt_gaps(s, list);
   doubt_grips(s, list);
   doubt_borders(s, list);
   doubt_loads(s, list);

@@ -75,6 +75,15 @@ double cohesive_time(const Scene& scene, const State<Real, 2>& s) {
   return stiffness > 0 ? std::sqrt(density * s.grid.lattice.h / stiffness) : std::numeric_limits<double>::infinity();
 }
 
+/// In which damping takes half of the velocities, s: in twice of that it would turn them around.
+double damping_time(const Scene& scene, double time) {
+  double rate = 0;
+  for (const auto* damping : {&scene.grid_damping, &scene.particle_damping})
+    if (*damping)
+      rate += std::max(0.0, (**damping)(time));
+  return 0.5 / rate;
+}
+
 }  // namespace
 
 template <class Real>
@@ -92,6 +101,10 @@ void choose_time_step(const Scene& scene, const Speeds& v, State<Real, 2>& s) {
   if (const double limit = cfl * cohesive_time(scene, s); limit < c.dt) {
     c.dt = limit;
     c.limiter = "cohesive law";
+  }
+  if (const double limit = c.dt_factor * damping_time(scene, c.time); limit < c.dt) {
+    c.dt = limit;
+    c.limiter = "damping";
   }
   if (dt_max < c.dt) {
     c.dt = dt_max;

@@ -90,7 +90,7 @@ ErrorLaw law_of(const std::string& column, const std::vector<Rung>& ladder, doub
   ErrorLaw law{column};
   const double h1 = ladder[0].cell, h2 = ladder[1].cell, h3 = ladder[2].cell;
   law.measured = order_of(h1 / h2, h3 / h2, d12 / d23).value_or(std::numeric_limits<double>::quiet_NaN());
-  law.sure = law.measured >= least && law.measured <= 2 * most;
+  law.sure = law.measured >= least && law.measured <= 1.25 * most;
   law.order = std::isnan(law.measured) ? (d12 > d23 ? most : 1) : std::clamp(law.measured, least, most);
   // where the middle run is right by chance, the distances do not shrink: the larger one then counts
   law.factor = std::max(d23 / (std::pow(h2, law.order) - std::pow(h3, law.order)),

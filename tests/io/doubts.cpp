@@ -232,10 +232,31 @@ TEST(Doubts, NameGripsThatReachJustPastACrack) {
 
 TEST(Doubts, NameHolesBetweenParticles) {
   Scene s = sound_scene();
-  s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {30.3e-3, 34e-3}}};
+  s.bodies[0].holes = {Rectangle{{30.3e-3, 30e-3}, {30.6e-3, 34e-3}}};
   expect_doubt(s, "body plate", "between particles");
-  s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {31e-3, 34e-3}}};
+  s.bodies[0].holes = {Rectangle{{30e-3, 30e-3}, {32e-3, 34e-3}}};
   EXPECT_TRUE(doubts(s).empty());
+}
+
+/// A saw cut of one and of two cells that leads to a crack, from above and from the left, and a crack along it.
+TEST(Doubts, NameNotchesThatTheGridDoesNotSee) {
+  for (const int axis : {0, 1})
+    for (const double width : {1e-3, 1.5e-3, 2e-3, 3e-3}) {
+      Scene s = sound_scene();
+      const auto turn = [&](Vec2 x) { return axis == 0 ? x : Vec2{x.y, x.x}; };
+      s.grips.clear();
+      s.cracks[0].points = {turn({10e-3, 20e-3}), turn({20e-3, 20e-3})};
+      s.bodies[0].holes = {Rectangle{turn({-1e-3, 20e-3 - width / 2}), turn({10e-3, 20e-3 + width / 2})}};
+      if (width < 2e-3)
+        expect_doubt(s, "body plate", "less than two cells wide");
+      else
+        EXPECT_TRUE(doubts(s).empty()) << doubts(s)[0].what;
+      s.cracks[0].points[0] = turn({-1e-3, 20e-3});
+      EXPECT_TRUE(doubts(s).empty()) << width;
+    }
+  Scene s = sound_scene();
+  s.bodies[0].holes = {Disk{{20e-3, 30e-3}, 5e-3}, Disk{{30e-3, 10e-3}, 0.75e-3}};
+  EXPECT_TRUE(doubts(s).empty()) << "narrow at its ends alone";
 }
 
 TEST(Doubts, NameBodiesWhoseParticlesAreNotWhatWasDrawn) {

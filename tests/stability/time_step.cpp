@@ -85,5 +85,27 @@ TEST(TimeStep, IsStableBelowOneAndStoppedBeyond) {
       }
 }
 
+/// Damping that takes many times the velocities in the time that waves allow for a step: the step becomes so short that
+/// it takes half of them.
+TEST(StrongDamping, BringsABodyToRest) {
+  for (const bool of_grid : {true, false}) {
+    Scene s = beating_block(StressUpdate::usavg, Transfer::fmpm, 0.4);
+    const double waves = std::sqrt(s.materials[0].E / s.materials[0].density);
+    (of_grid ? s.grid_damping : s.particle_damping) = TimeFunction{20 * waves / s.cell, {}, ""};
+    const ChosenSpace space;
+    Simulation m(s, space);
+    tally(space, m.plan, m.state);
+    const double before = m.state.ledger.energy.kinetic;
+    for (int step = 0; step < 200; ++step) {
+      m.step();
+      EXPECT_EQ(std::string(m.state.clock.limiter), "damping");
+    }
+    tally(space, m.plan, m.state);
+    const std::string row = of_grid ? "grid" : "particles";
+    below(row + ": kinetic energy over the first", m.state.ledger.energy.kinetic / before, 1e-6);
+    EXPECT_GT(m.state.ledger.energy.kinetic, 0);
+  }
+}
+
 }  // namespace
 }  // namespace riven
