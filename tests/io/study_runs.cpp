@@ -295,9 +295,9 @@ TEST_F(StudyRuns, HandAStopToTheRunUnderWay) {
           return run.path();
     return fs::path();
   };
-  while (under_way().empty() || records().empty())
+  fs::path run;
+  while ((run = under_way()).empty() || records().empty())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const fs::path run = under_way();
   kill(study, SIGTERM);  // the study alone
   EXPECT_EQ(children.wait().code, 5);
   EXPECT_EQ(writing(), 0);
