@@ -1,5 +1,5 @@
 // Notches and slots of a body that the grid does not see: particles on either side of a gap of less than two cells
-// share nodes, and move as one. A saw cut of a cell that leads to a crack leaves 6 % of its K, one of 1.6 cells 60 %.
+// share nodes, and move as one. A saw cut of a cell that leads to a crack leaves 6 % of its K.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -36,7 +36,7 @@ struct DueTip {
   bool bend_in_cell = false;           ///< or a bend
   bool pressed_bend = false;           ///< or one with pressed faces, for J and K to be resolved
   double acting = 1;                   ///< tips that it takes for this one: itself, and those too near that run its way
-  bool drawn_in[4] = {};               ///< edges that did not lie in the solid when they were looked at last
+  bool drawn_in[4] = {};               ///< edges that have been, and have not been found in the solid since
   bool settled = false;                ///< all of its edges lie in the solid
   bool to_draw_in = false;             ///< some do not, and have room to be drawn in
   bool to_leave_bends = false;         ///< bends have become known
