@@ -80,13 +80,22 @@ struct NodeContact {
     }
   }
 
-  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume) {
+  /// `stuck`: some stuck in the last momentum update. Those go on as one in the other stages (pressed_faces.hpp).
+  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume, bool stuck) {
+    const auto touch = [&](const Meeting& m) {
+      Verdict v = judge(found, slot, node.mass, dt, m, relative_volume);
+      if (stuck && v.touch == Touch::sticks)
+        v.touch = Touch::bonds;
+      return v;
+    };
+    const auto given = [&](const Meeting& m) { return found.prescribed.both_given(slot, m); };
     for (const Meeting& m : meetings)
-      if (m.law.law == ContactLaw::bonded)
-        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
+      if (m.law.law == ContactLaw::bonded || (stuck && m.law.law == ContactLaw::stick && !given(m)))
+        if (const Verdict v = touch(m); v.touch == Touch::bonds)
+          list(m, v);
     for (const Meeting& m : meetings)
-      if (!node.together(m.above, m.below) && !found.prescribed.both_given(slot, m))
-        list(m, judge(found, slot, node.mass, dt, m, relative_volume));
+      if (!node.together(m.above, m.below) && !given(m))
+        list(m, touch(m));
   }
 
   /// Fields whose motion is prescribed do not give way, where they are firm. One that is prescribed in one component
@@ -153,6 +162,15 @@ struct NodeContact {
     report.early = touched && relative_volume < found.v_sep;
   }
 
+  /// By what faces that stick press, N s.
+  RIVEN_INLINE double pressing(const Outcome& out) const {
+    double sum = 0;
+    for (int i = 0; i < node.stickings; ++i)
+      if (out.stuck[i])
+        sum += std::abs(dot(out.impulse[node.sticking[i].above], node.sticking[i].normal));
+    return sum;
+  }
+
   /// Links fields that are one now.
   RIVEN_INLINE FieldLinks links(const Outcome& out) const {
     Node linked = node;
@@ -182,7 +200,7 @@ struct NodeContact {
         volume += found.sums.volume[slot[f]];
       volume = relative_volume(lattice, n.node, volume);
     }
-    detect(meetings, volume);
+    detect(meetings, volume, found.last(n.node) > 0);
     double momenta = 0;
     for (int f = 0; f < Node::fields; ++f)
       momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
@@ -192,6 +210,8 @@ struct NodeContact {
         respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
     const Outcome out = solve(node);
     tally(out, volume);
+    if (stage == ContactStage::after && found.pressed && (found.pressed[n.node] = pressing(out)) > 0)
+      ++report.pressing;
     if (stage == ContactStage::after && found.links)
       found.links[index] = links(out);
     if (!out.converged)

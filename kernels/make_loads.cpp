@@ -21,6 +21,7 @@ void load_edge(const Scene& scene, const State<Real, 2>& s, const Load& load, Lo
   const auto& p = s.particles;
   const bool along_x = load.edge == Load::Edge::left || load.edge == Load::Edge::right;
   const int sign = load.edge == Load::Edge::right || load.edge == Load::Edge::top ? 1 : -1;
+  group.out.along[along_x ? 0 : 1] = static_cast<signed char>(sign);
   const Lattice& l = s.grid.lattice;
   // places on each body's own lattice of particles
   const auto place = [&](long i, double d) {
@@ -99,6 +100,7 @@ template <class Real>
 void make_loads(const Scene& scene, State<Real, 2>& s) {
   const auto& p = s.particles;
   std::vector<int> loaded;
+  std::vector<Outward> out;
   for (const Load& load : scene.loads) {
     LoadGroup g;
     g.value[0] = load.value[0];
@@ -115,11 +117,15 @@ void make_loads(const Scene& scene, State<Real, 2>& s) {
       check_values(scene, load, g);
     }
     loaded.insert(loaded.end(), g.id.begin(), g.id.end());
+    out.resize(loaded.size(), g.out);
     s.loads.groups.push_back(std::move(g));
   }
   s.loads.loaded.resize(static_cast<long>(loaded.size()));
   std::copy(loaded.begin(), loaded.end(), s.loads.loaded.begin());
+  s.loads.out.resize(s.loads.loaded.size());
+  std::copy(out.begin(), out.end(), s.loads.out.begin());
   s.loads.force.resize(s.loads.loaded.size());
+  s.loads.from.resize(s.loads.loaded.size());
   s.loads.applied_at.resize(s.loads.loaded.size());
   s.loads.position.resize(p.count());  // filled when they are sorted
 }

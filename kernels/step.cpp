@@ -167,7 +167,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.tractions, "tractions: work and damage", "tractions",
       [](Simulation& m) { settle_tractions(m.space, m.point_forces, m.plan.extrapolate_again(), m.state); });
   add(p.growth, "grow cracks", "growth", grow_cracks<Real>);
-  add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.state); });
+  add(p.loads, "loads: work", "loads", [](Simulation& m) { settle_loads(m.space, m.plan, m.state); });
   add(p.constraints, "boundary: reactions", "boundary", [](Simulation& m) {
     const Clock& c = m.state.clock;
     settle_constraints(m.space, m.plan, m.early_impulse(), m.contact_sums.resisted, m.state);

@@ -120,6 +120,28 @@ struct BSpline {
   }
 };
 
+/// Weights along the normal of the edge of a body, half a particle beyond the last one, that balance a uniform stress
+/// in the row of particles that ends there at X: s_i = +-d sum_k g_i(X -+ k d), d being the length of a particle. For
+/// uGIMP these are the functions N_i at the edge itself, as g_i = (N_i(X + d/2) - N_i(X - d/2)) / d. `out` is +-1, or 0
+/// for the functions at X.
+template <class Shape, class Real>
+RIVEN_INLINE Axis<Real, Shape::width> axis_at_edge(double X, const AxisSetting<Real>& setting, int out) {
+  Axis<Real, Shape::width> edge = Shape::axis(X, setting);
+  if (out == 0)
+    return edge;
+  const Real d = Real(2) * setting.half;
+  for (int m = 0; m < Shape::width; ++m)
+    edge.s[m] = 0;
+  for (int k = 0, past = 0; past < Shape::width; ++k) {  // up to the particle that shares no node with the last one
+    const Axis<Real, Shape::width> inner = Shape::axis(X - out * k * double(d), setting);
+    past = out * (edge.base - inner.base);
+    for (int m = 0; m < Shape::width; ++m)
+      if (const int n = inner.base + m - edge.base; n >= 0 && n < Shape::width)
+        edge.s[n] += out * d * inner.g[m];
+  }
+  return edge;
+}
+
 /// Nodes that one particle sees.
 template <class Shape, int Dim>
 inline constexpr int neighbours = [] {

@@ -98,6 +98,33 @@ TYPED_TEST(ShapeFunctions, DoNotJumpWhereAParticleTakesOtherNodes) {
   });
 }
 
+/// A row of particles under a uniform stress between tractions on its ends is in balance at every node, however it lies
+/// in its cells; tractions are whole, and the nodes that bear them are those of the last particles.
+TYPED_TEST(ShapeFunctions, AtEdgesBalanceARowUnderUniformStress) {
+  for (const double half : this->halves)
+    for (int n = 0; n < 100; ++n) {
+      const double d = 2 * half, last = upper - 1.5003 - n / 100.;
+      const int count = static_cast<int>(std::lround(5 / d));
+      AxisSetting<double> a = this->setting(half);
+      std::map<int, double> force;
+      double whole[2] = {0, 0};
+      for (int k = 0; k < count; ++k)
+        for (const auto& [node, g] : by_node<TypeParam>(last - k * d, a).g)
+          force[node] -= d * g;
+      for (const int out : {-1, 1}) {
+        const auto edge = axis_at_edge<TypeParam>(out < 0 ? last - (count - 1) * d : last, a, out);
+        for (int i = 0; i < TypeParam::width; ++i) {
+          force[edge.base + i] += out * edge.s[i];
+          whole[out > 0] += edge.s[i];
+        }
+      }
+      for (const auto& [node, f] : force)
+        EXPECT_NEAR(f, 0, 1e-13) << "node " << node << " of a row from " << last << ", particles of " << d;
+      EXPECT_NEAR(whole[0], 1, 1e-13);
+      EXPECT_NEAR(whole[1], 1, 1e-13);
+    }
+}
+
 double hat(double r) {
   return std::max(0., 1 - std::abs(r));
 }
@@ -128,6 +155,16 @@ TEST(ShapeFormulas, UGimpIsTheHatAveragedOverTheParticle) {
       const double g = (hat(X + a.half - node) - hat(X - a.half - node)) / (2 * a.half);
       EXPECT_NEAR(found.s.contains(node) ? found.s.at(node) : 0, s, 1e-13) << X;
       EXPECT_NEAR(found.g.contains(node) ? found.g.at(node) : 0, g, 1e-13) << X;
+    }
+  });
+}
+
+TEST(ShapeFormulas, UGimpAtAnEdgeIsTheHatThere) {
+  ShapeFunctions<UGimp>::everywhere([](double X, const AxisSetting<double>& a) {
+    for (const int out : {-1, 1}) {
+      const auto edge = axis_at_edge<UGimp>(X, a, out);
+      for (int i = 0; i < UGimp::width; ++i)
+        EXPECT_NEAR(edge.s[i], hat(X + out * a.half - (edge.base + i)), 1e-13) << X;
     }
   });
 }

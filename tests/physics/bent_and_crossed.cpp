@@ -50,10 +50,7 @@ Scene disk_under(Pull pull, double angle, std::vector<CrackLine> lines, double r
   for (const Load::Edge edge : {Load::Edge::left, Load::Edge::right, Load::Edge::bottom, Load::Edge::top}) {
     const bool across = edge == Load::Edge::bottom || edge == Load::Edge::top;
     const double sign = edge == Load::Edge::right || edge == Load::Edge::top ? 1 : -1;
-    Load load;
-    load.kind = Load::Kind::traction;
-    load.edge = edge;
-    load.region = Rectangle{{-far, -far}, {far, far}};
+    Load load = traction_on(edge, Rectangle{{-far, -far}, {far, far}});
     const auto rise = [ramp](double t) { return std::min(t / ramp, 1.0); };
     load.value[0] = TimeFunction{sign * (across ? xy : xx), rise, ""};
     load.value[1] = TimeFunction{sign * (across ? yy : xy), rise, ""};

@@ -116,11 +116,8 @@ Scene held_bar(Transfer transfer, double pic_fraction, StressUpdate update) {
   const auto rise = [](double t) { return t < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * t / ramp)) : 1; };
   s.grid_damping = TimeFunction{3e5, {}, ""};
   for (const double side : {-1., 1.}) {
-    Load load;
+    Load load = traction_on(side > 0 ? Load::Edge::top : Load::Edge::bottom, s.bodies[0].region);
     load.name = side > 0 ? "top" : "bottom";
-    load.kind = Load::Kind::traction;
-    load.edge = side > 0 ? Load::Edge::top : Load::Edge::bottom;
-    load.region = s.bodies[0].region;
     load.value[1] = TimeFunction{side * pull, rise, ""};
     s.loads.push_back(load);
   }
@@ -170,11 +167,8 @@ Scene pressed_crack(const Handed& by, StressUpdate update, double confining) {
   s.grid_damping = TimeFunction{5e4, {}, ""};
   s.end_time = 1.5 * ramp;
   for (const bool top : {false, true}) {
-    Load load;
+    Load load = traction_on(top ? Load::Edge::top : Load::Edge::bottom, s.bodies[0].region);
     load.name = top ? "top" : "bottom";
-    load.kind = Load::Kind::traction;
-    load.edge = top ? Load::Edge::top : Load::Edge::bottom;
-    load.region = s.bodies[0].region;
     load.value[1] = TimeFunction{(top ? -1 : 1) * confining, rise, ""};
     s.loads.push_back(load);
   }

@@ -26,11 +26,9 @@ Scene block_on_line(bool left) {
   line.box = left ? Rectangle{{0, -4}, {0, side + 4}} : Rectangle{{-4, 0}, {side + 4, 0}};
   line.velocity[axis] = constant(0);
   s.fixed = {line};
-  Load push;
+  Load push = traction_on(left ? Load::Edge::right : Load::Edge::top,
+                          left ? Rectangle{{side - 1, 0}, {side, side}} : Rectangle{{0, side - 1}, {side, side}});
   push.name = "push";
-  push.kind = Load::Kind::traction;
-  push.edge = left ? Load::Edge::right : Load::Edge::top;
-  push.region = left ? Rectangle{{side - 1, 0}, {side, side}} : Rectangle{{0, side - 1}, {side, side}};
   push.value[axis] = TimeFunction{-strain * s.materials[0].E, [](double t) { return std::clamp(t / 3, 0., 1.); }, ""};
   s.loads = {push};
   s.grid_damping = constant(8);

@@ -37,11 +37,8 @@ Scene block_between_plates(double pressure, double mu) {
   upper.velocity[1] = constant(-speed);
   s.fixed = {lower, upper};
   for (const double side : {-1., 1.}) {
-    Load push;
+    Load push = traction_on(side < 0 ? Load::Edge::left : Load::Edge::right, s.bodies[0].region);
     push.name = side < 0 ? "left" : "right";
-    push.kind = Load::Kind::traction;
-    push.edge = side < 0 ? Load::Edge::left : Load::Edge::right;
-    push.region = s.bodies[0].region;
     push.value[0] = constant(-side * pressure);
     s.loads.push_back(push);
   }

@@ -111,11 +111,8 @@ Scene shear_box(bool fixed_nodes, double at, double pressure) {
   floor.region = Rectangle{{0, -8}, {length, -6}};
   floor.velocity[1] = constant(0);
   s.grips.push_back(floor);
-  Load top;
+  Load top = traction_on(Load::Edge::top, Rectangle{{0, 5}, {length, 6}});
   top.name = "top";
-  top.kind = Load::Kind::traction;
-  top.edge = Load::Edge::top;
-  top.region = Rectangle{{0, 5}, {length, 6}};
   top.value[1] = TimeFunction{-pressure, from(0), ""};
   s.loads = {top};
   s.grid_damping = constant(5);
@@ -198,11 +195,8 @@ Sag sag_between_grips(bool cut, Transfer transfer) {
     s.cracks.clear();
   s.grips = {grip_at_rest("left", Rectangle{{-2, -6}, {0, 0}}),
              grip_at_rest("right", Rectangle{{length, -6}, {length + 2, 0}})};
-  Load top;
+  Load top = traction_on(Load::Edge::top, Rectangle{{0, 5}, {length, 6}});
   top.name = "top";
-  top.kind = Load::Kind::traction;
-  top.edge = Load::Edge::top;
-  top.region = Rectangle{{0, 5}, {length, 6}};
   top.value[1] = TimeFunction{-1e-3 * s.materials[0].E, [](double t) { return std::min(t / 3, 1.); }, ""};
   s.loads = {top};
   s.grid_damping = constant(2);

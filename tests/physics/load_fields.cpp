@@ -76,10 +76,7 @@ TEST(LoadFields, GiveTheImpulseOfTheirIntegral) {
 /// A traction that rises along the edge has the resultant and the moment of its triangle.
 TEST(LoadFields, GiveTheMomentOfATractionThatVariesAlongItsEdge) {
   Scene s = block();
-  Load load;
-  load.kind = Load::Kind::traction;
-  load.edge = Load::Edge::right;
-  load.region = s.bodies[0].region;
+  Load load = traction_on(Load::Edge::right, s.bodies[0].region);
   load.value[0] = {60, [](double, long n, const double*, const double* Y, double* out) { std::copy(Y, Y + n, out); }};
   s.loads = {load};
   const ChosenSpace space;
@@ -94,6 +91,38 @@ TEST(LoadFields, GiveTheMomentOfATractionThatVariesAlongItsEdge) {
   EXPECT_NEAR(force.x, 30, 1e-12);
   EXPECT_EQ(force.y, 0);
   EXPECT_NEAR(moment, -20, 0.02);  // -60 times the mean of y^2 over the rows of particles
+}
+
+/// A bar of 30 x 10 cells between tractions that stretch it by 0.8 %, so that its ends lie an eighth of a cell within
+/// the next cells, at rest. By the functions of the particles' middles the last two rows bore 0.3 and 1.3 of them.
+TEST(LoadFields, TractionsAreTheStressOfTheParticlesBesideThem) {
+  constexpr double mm = 1e-3, E = 2.5e9, traction = 20e6, rise = 0.1e-3;
+  for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::ugimp, ShapeFunction::bspline}) {
+    Scene s = empty_scene(mm, {{-6 * mm, -4 * mm}, {36 * mm, 14 * mm}});
+    s.plane = Plane::stress;
+    s.shape = shape;
+    s.transfer = Transfer::fmpm;
+    s.materials = {{"bar", LawKind::linear_elastic, E, 0.33, 1000}};
+    s.bodies = {body("bar", Rectangle{{0, 0}, {30 * mm, 10 * mm}})};
+    for (const double side : {-1., 1.}) {
+      Load load = traction_on(side > 0 ? Load::Edge::right : Load::Edge::left, s.bodies[0].region);
+      load.value[0] = TimeFunction{side * traction, [](double t) { return std::min(t / rise, 1.); }, ""};
+      s.loads.push_back(load);
+    }
+    s.grid_damping = constant(8e4);
+    const ChosenSpace space;
+    Simulation m(s, space);
+    const auto& p = m.state.particles;
+    const std::vector<double> first(p.x[0].begin(), p.x[0].end());  // by id
+    while (m.state.clock.time < 1e-3)
+      m.step();
+    for (long i = 0; i < p.count(); ++i)
+      if (const double from = first[static_cast<size_t>(p.id[i])]; from < mm || from > 29 * mm) {
+        EXPECT_NEAR(1000 * p.stress[0][i] / traction, 1, 0.02) << name_of(shape) << ", from " << from;
+      }
+    m.take_stock();
+    EXPECT_NEAR(m.state.ledger.energy.unaccounted() / m.state.ledger.energy.external_work, 0, 1e-4);
+  }
 }
 
 TEST(LoadFields, AreTheSameOnAnyNumberOfThreads) {

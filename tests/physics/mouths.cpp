@@ -70,11 +70,9 @@ double opening_at_wall(ShapeFunction shape, double y) {
   s.symmetry = {{0, 0, +1}, {0, edge, -1}};
   s.cracks = {crack("crack", {{0, y}, {9, y}})};
   for (const bool top : {false, true}) {
-    Load l;
+    Load l = traction_on(top ? Load::Edge::top : Load::Edge::bottom,
+                         top ? Rectangle{{0, 14}, {edge, 18}} : Rectangle{{0, -18}, {edge, -14}});
     l.name = top ? "top" : "bottom";
-    l.kind = Load::Kind::traction;
-    l.edge = top ? Load::Edge::top : Load::Edge::bottom;
-    l.region = top ? Rectangle{{0, 14}, {edge, 18}} : Rectangle{{0, -18}, {edge, -14}};
     l.value[1] = TimeFunction{top ? 1e3 : -1e3, [](double t) { return std::min(t / 2, 1.); }, ""};
     s.loads.push_back(l);
   }

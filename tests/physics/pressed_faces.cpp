@@ -77,11 +77,8 @@ Scene column(std::optional<ContactSettings> contact, double crack_at, Transfer t
     plane.solid = side < 0 ? +1 : -1;
     s.symmetry.push_back(plane);
   }
-  Load push;
+  Load push = traction_on(Load::Edge::bottom, Rectangle{{-2 * mm, -50 * mm}, {2 * mm, -49 * mm}});
   push.name = "pulse";
-  push.kind = Load::Kind::traction;
-  push.edge = Load::Edge::bottom;
-  push.region = Rectangle{{-2 * mm, -50 * mm}, {2 * mm, -49 * mm}};
   push.value[1] =
       shaped(1e5, [](double t) { return t < pulse ? std::pow(std::sin(std::numbers::pi * t / pulse), 2) : 0; });
   s.loads = {push};

@@ -30,11 +30,8 @@ Scene block_on_platen(const ContactSettings& law, double speed) {
   const auto from = [](double start) { return [start](double t) { return std::clamp((t - start) / 2, 0., 1.); }; };
   s.grips = {grip_at_rest("platen", platen)};
   s.fixed = {{"top", {{-2, 10}, {length + 2, 10}}, {TimeFunction{-speed, from(6), ""}, std::nullopt}}};
-  Load top;
+  Load top = traction_on(Load::Edge::top, Rectangle{{0, 9}, {length, 10}});
   top.name = "top";
-  top.kind = Load::Kind::traction;
-  top.edge = Load::Edge::top;
-  top.region = Rectangle{{0, 9}, {length, 10}};
   top.value[1] = TimeFunction{-0.01 * s.materials[0].E, from(0), ""};
   s.loads = {top};
   s.grid_damping = constant(5);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tests/physics/plates.hpp"
+#include "tests/physics/scenes.hpp"
 
 namespace riven {
 namespace {
@@ -106,10 +107,9 @@ double compliance_of_tips(double traction, double below) {
                fmt::format("grid.upper.1={}", length(57 * mm - shift))});
   s.grips.clear();
   for (const double side : {-1., 1.}) {
-    Load load;
-    load.kind = Load::Kind::traction;
-    load.edge = side > 0 ? Load::Edge::top : Load::Edge::bottom;
-    load.region = side > 0 ? Rectangle{{0, 0}, {50 * mm, 50 * mm}} : Rectangle{{0, -50 * mm}, {50 * mm, 0}};
+    Load load =
+        test::traction_on(side > 0 ? Load::Edge::top : Load::Edge::bottom,
+                          side > 0 ? Rectangle{{0, 0}, {50 * mm, 50 * mm}} : Rectangle{{0, -50 * mm}, {50 * mm, 0}});
     const auto rise = [](double t) { return t < ramp ? 0.5 * (1 - std::cos(std::numbers::pi * t / ramp)) : 1; };
     load.value[1] = TimeFunction{side * traction, rise, ""};
     s.loads.push_back(load);

@@ -54,6 +54,15 @@ inline Grip grip_at_rest(const char* name, Region region) {
   return g;
 }
 
+/// A traction on one side of what lies in the region, without a value.
+inline Load traction_on(Load::Edge edge, Region region) {
+  Load load;
+  load.kind = Load::Kind::traction;
+  load.edge = edge;
+  load.region = std::move(region);
+  return load;
+}
+
 /// A plate of 40 mm x 40 mm about the origin on cells of 1 mm, pulled up and down by 1 MPa until it rests: plane
 /// stress, E = 3 GPa, nu = 0.3, 1200 kg/m^3.
 inline Scene pulled_plate(CrackLine line, int contour) {
@@ -66,11 +75,10 @@ inline Scene pulled_plate(CrackLine line, int contour) {
   s.bodies = {body("plate", Rectangle{{-20e-3, -20e-3}, {20e-3, 20e-3}})};
   s.cracks = {std::move(line)};
   for (const bool top : {false, true}) {
-    Load l;
+    Load l =
+        traction_on(top ? Load::Edge::top : Load::Edge::bottom,
+                    top ? Rectangle{{-20e-3, 18e-3}, {20e-3, 20e-3}} : Rectangle{{-20e-3, -20e-3}, {20e-3, -18e-3}});
     l.name = top ? "top" : "bottom";
-    l.kind = Load::Kind::traction;
-    l.edge = top ? Load::Edge::top : Load::Edge::bottom;
-    l.region = top ? Rectangle{{-20e-3, 18e-3}, {20e-3, 20e-3}} : Rectangle{{-20e-3, -20e-3}, {20e-3, -18e-3}};
     l.value[1] =
         TimeFunction{top ? 1e6 : -1e6,
                      [](double t) { return t < 1e-4 ? 0.5 - 0.5 * std::cos(std::numbers::pi * t / 1e-4) : 1; }, ""};

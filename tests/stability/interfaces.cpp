@@ -24,10 +24,7 @@ Scene cut_bar(double beyond) {
 
 void pull(Scene& s, double stress) {
   for (const bool right : {false, true}) {
-    Load load;
-    load.kind = Load::Kind::traction;
-    load.edge = right ? Load::Edge::right : Load::Edge::left;
-    load.region = s.bodies[0].region;
+    Load load = traction_on(right ? Load::Edge::right : Load::Edge::left, s.bodies[0].region);
     load.value[0] = TimeFunction{right ? stress : -stress, [](double t) { return std::min(1., t / 0.2); }, ""};
     s.loads.push_back(load);
   }

@@ -30,11 +30,8 @@ Scene star(int arms, const Vec2 middle, Transfer transfer, double cell = coarse)
   }
   using enum Load::Edge;
   for (const Load::Edge side : {left, right, bottom, top}) {
-    Load pull;
+    Load pull = traction_on(side, s.bodies[0].region);
     pull.name = name_of(side);
-    pull.kind = Load::Kind::traction;
-    pull.edge = side;
-    pull.region = s.bodies[0].region;
     const bool across = side == bottom || side == top;
     pull.value[across] = TimeFunction{(side == left || side == bottom ? -1 : 1) * 1e3,
                                       [](double t) { return std::min(1., t / 0.1); }, ""};
