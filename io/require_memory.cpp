@@ -23,9 +23,9 @@ double available_memory() {
 
 void require_memory(const Scene& scene, double available) {
   const MemoryNeed need = predict_memory(scene, make_plan(scene));
-  if (need.bytes > available)
+  if (need.peak() > available)
     fail({Exit::bad_input, "the scene takes more memory than is available", place(scene, "grid.cell"),
-          fmt::format("{} for about {:.3g} particles and {:.3g} nodes", format_bytes(static_cast<long>(need.bytes)),
+          fmt::format("{} for about {:.3g} particles and {:.3g} nodes", format_bytes(static_cast<long>(need.peak())),
                       need.particles, need.nodes),
           format_bytes(static_cast<long>(available)),
           "larger cells, fewer particles_per_cell, or precision = \"float\""});
