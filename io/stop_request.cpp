@@ -1,6 +1,7 @@
 #include "io/stop_request.hpp"
 
 #include <atomic>
+#include <cstring>
 #include <ctime>
 #include <iterator>
 
@@ -10,8 +11,6 @@ namespace riven {
 
 namespace {
 
-constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-constexpr int signal_count = std::size(signals);
 constexpr long patience = 500;  ///< ms
 
 std::atomic<int> noted{0};
@@ -36,7 +35,7 @@ void note(int signal) {
 
 StopRequest::StopRequest(double wall_limit, Waits waits) : end_(exec::Stopwatch::now() + wall_limit) {
   noted = 0;
-  for (int i = 0; i < signal_count; ++i) {
+  for (size_t i = 0; i < std::size(signals); ++i) {
     struct sigaction action {};
     action.sa_handler = note;
     action.sa_flags = waits == Waits::resume ? SA_RESTART : 0;
@@ -47,7 +46,7 @@ StopRequest::StopRequest(double wall_limit, Waits waits) : end_(exec::Stopwatch:
 }
 
 StopRequest::~StopRequest() {
-  for (int i = 0; i < signal_count; ++i)
+  for (size_t i = 0; i < std::size(signals); ++i)
     sigaction(signals[i], &before_[i], nullptr);
 }
 
@@ -56,12 +55,7 @@ bool StopRequest::asked() const {
 }
 
 std::string StopRequest::by() const {
-  switch (noted) {
-    case SIGINT: return "SIGINT";
-    case SIGTERM: return "SIGTERM";
-    case SIGHUP: return "SIGHUP";
-    default: return "the wall limit";
-  }
+  return noted == 0 ? "the wall limit" : std::string("SIG") + sigabbrev_np(noted);
 }
 
 }  // namespace riven

@@ -1,6 +1,8 @@
-// Asked to stop: by SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), or because the time is up.
+// Asked to stop: by SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGUSR1, SIGUSR2 or SIGXCPU (batch
+// systems, before the time of a job is up), or because the time is up.
 #pragma once
 #include <csignal>
+#include <iterator>
 #include <string>
 
 namespace riven {
@@ -18,12 +20,13 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   bool asked() const;
-  /// "SIGINT", "SIGTERM", "SIGHUP" or "the wall limit".
+  /// "SIGINT" or another, or "the wall limit".
   std::string by() const;
 
  private:
+  static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
   double end_;  ///< s, on the clock of stop watches
-  struct sigaction before_[3];
+  struct sigaction before_[std::size(signals)];
 };
 
 }  // namespace riven

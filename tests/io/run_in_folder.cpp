@@ -92,13 +92,12 @@ struct LongRun {
 };
 
 TEST(RunInFolder, SignalsInterruptItWithACheckpoint) {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const auto& [number, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGUSR1, "SIGUSR1"}}) {
     const LongRun run;
     const Program program(run.arguments(), run.printed());
     run.wait_until_it_runs();
     program.signal(number);
-    run.expect(program.end(), 5,
-               {number == SIGINT ? "SIGINT" : "SIGTERM", "riven run --restart " + run.results().string()});
+    run.expect(program.end(), 5, {name, "riven run --restart " + run.results().string()});
     EXPECT_EQ(run.summary()["status"], "interrupted");
     const long steps = run.summary()["steps"];
     EXPECT_GT(steps, 0);
@@ -115,7 +114,7 @@ TEST(RunInFolder, SignalsInterruptItWithACheckpoint) {
 
 /// One that follows at once is taken for the first, sent to the program and to its group.
 TEST(RunInFolder, ASecondSignalEndsItHalfASecondLater) {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}) {
     const pid_t child = fork();
     if (child == 0) {
       std::signal(number, SIG_DFL);
@@ -126,7 +125,7 @@ TEST(RunInFolder, ASecondSignalEndsItHalfASecondLater) {
       if (!stop.asked())
         _exit(2);
       raise(number);
-      if (stop.by() != (number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP"))
+      if (stop.by() != (std::string("SIG") + sigabbrev_np(number)))
         _exit(3);
       std::this_thread::sleep_for(std::chrono::milliseconds(600));
       raise(number);
