@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <variant>
 
 #include "core/fracture/growth.hpp"
+#include "core/scene/area.hpp"
 #include "core/state/lay_points.hpp"
 #include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
@@ -57,18 +57,6 @@ void doubt_toughness(const Scene& s, std::vector<Doubt>& list) {
       list.push_back({place(s, "material " + m.name),
                       fmt::format("no crack grows by its {}", m.K_Ic > 0 && !K ? "K_Ic" : "J_Ic"),
                       "a [growth] table takes it that has this criterion and no toughness of its own"});
-}
-
-double area_of(const Region& region) {
-  if (const auto* d = std::get_if<Disk>(&region))
-    return std::numbers::pi * d->radius * d->radius;
-  if (const auto* r = std::get_if<Rectangle>(&region))
-    return (r->upper.x - r->lower.x) * (r->upper.y - r->lower.y);
-  const auto& p = std::get<Polygon>(region).points;
-  double twice = 0;
-  for (size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
-    twice += cross(p[j], p[i]);
-  return 0.5 * std::fabs(twice);
 }
 
 /// Bodies hold what their particles do, and not what was drawn.

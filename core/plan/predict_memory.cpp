@@ -1,31 +1,14 @@
 #include "core/plan/predict_memory.hpp"
 
-#include <cmath>
-#include <numbers>
-
+#include "core/scene/area.hpp"
 #include "core/state/grid.hpp"
 
 namespace riven {
 
 namespace {
 
-double area(const Region& region) {
-  if (const auto* r = std::get_if<Rectangle>(&region))
-    return (r->upper.x - r->lower.x) * (r->upper.y - r->lower.y);
-  if (const auto* d = std::get_if<Disk>(&region))
-    return std::numbers::pi * d->radius * d->radius;
-  const auto& p = std::get<Polygon>(region).points;
-  double twice = 0;
-  for (size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
-    twice += cross(p[j], p[i]);
-  return 0.5 * std::abs(twice);
-}
-
 double particles_of(const Body& body, double cell) {
-  double solid = area(body.region);
-  for (const Region& hole : body.holes)
-    solid -= area(hole);
-  return std::max(0., solid) * body.particles_per_cell * body.particles_per_cell / (cell * cell);
+  return area_of(body) * body.particles_per_cell * body.particles_per_cell / (cell * cell);
 }
 
 double bytes_of_particle(const Plan& p, double real) {

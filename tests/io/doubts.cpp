@@ -284,7 +284,8 @@ TEST(Doubts, NameCracksTooShortToOpen) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
-TEST(Doubts, NameTractionsOnObliqueEdgesAndInHoles) {
+/// The sound scene pulled at its top.
+Scene pulled_scene() {
   Scene s = sound_scene();
   s.grips.clear();
   Load pull;
@@ -294,6 +295,37 @@ TEST(Doubts, NameTractionsOnObliqueEdgesAndInHoles) {
   pull.region = Rectangle{{0, 0}, {40e-3, 40e-3}};
   pull.value[1] = TimeFunction{1e6, {}, ""};
   s.loads = {pull};
+  return s;
+}
+
+/// 1 MPa takes the plate of 40 x 40 mm away from where it was, unless something holds it or pulls it back.
+TEST(Doubts, NameLoadsThatDoNotBalance) {
+  Scene s = pulled_scene();
+  s.end_time = 2e-3;
+  expect_doubt(s, "load pull", "nothing holds the bodies along y");
+  s.end_time = 1e-5;
+  EXPECT_TRUE(doubts(s).empty());
+  s.end_time = 2e-3;
+  s.symmetry = {{1, 0, 1}};
+  EXPECT_TRUE(doubts(s).empty());
+  s.symmetry = {{0, 0, 1}};
+  expect_doubt(s, "load pull", "along y");
+  s.symmetry.clear();
+  s.loads.push_back(s.loads[0]);
+  s.loads[1].name = "hold";
+  s.loads[1].edge = Load::Edge::bottom;
+  s.loads[1].value[1] = TimeFunction{-1e6, {}, ""};
+  EXPECT_TRUE(doubts(s).empty());
+  s.loads[1].kind = Load::Kind::force;
+  s.loads[1].value[1] = TimeFunction{-1e6 * 40e-3 * s.thickness, {}, ""};
+  EXPECT_TRUE(doubts(s).empty());
+  s.loads[1].value[1].value *= 0.5;
+  expect_doubt(s, "load pull", "do not balance");
+}
+
+TEST(Doubts, NameTractionsOnObliqueEdgesAndInHoles) {
+  Scene s = pulled_scene();
+  s.symmetry = {{1, 0, 1}};
   EXPECT_TRUE(doubts(s).empty());
   s.bodies[0].holes = {Disk{{30e-3, 30e-3}, 4e-3}};
   expect_doubt(s, "load pull", "in a hole of body plate");
