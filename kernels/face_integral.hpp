@@ -223,7 +223,8 @@ class FaceIntegral {
   /// Are faces closer than some cells, may they press on each other, and have they acted on each other?
   bool touch(const Segment& s, double cells) const {
     const Vec2 gap = middle_of_face(s.k, Side::above) - middle_of_face(s.k, Side::below);
-    return cracks_.contact[s.crack].law != ContactLaw::ignored && dot(gap, s.normal) < cells * h_ && acted(s.middle);
+    const double most = cells * h_ + aslant * std::fabs(cross(gap, s.normal));
+    return cracks_.contact[s.crack].law != ContactLaw::ignored && dot(gap, s.normal) < most && acted(s.middle);
   }
 
   /// Meets where faces touch and their law bears what the stresses next to them ask for.
@@ -374,8 +375,9 @@ class FaceIntegral {
   static constexpr int places = 4;          ///< at which it is looked for instead
   static constexpr double pressed_within = 4;  ///< cells behind a bend in which pressed faces are looked for
   /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
-  /// have opened by little at any tip while nodes next to it may still touch.
-  static constexpr double touching = 0.05, shut = 1e-3;
+  /// have opened by little at any tip while nodes next to it may still touch. Where faces slide their normals are not
+  /// known so well that the third number, of how far, would tell that they have parted.
+  static constexpr double touching = 0.05, shut = 1e-3, aslant = 0.05;
 
   const Cracks& cracks_;
   const SurfaceView& view_;
