@@ -52,7 +52,7 @@ struct ContactReport {
   long touching = 0;  ///< pairs of fields that pushed or held each other
   long apart = 0;     ///< pairs whose faces may part and did not touch
   long early = 0;     ///< nodes that touched although V_rel < V_sep (where volumes were summed)
-  long pressing = 0;  ///< nodes whose faces pressed in the momentum update, of several cracks: and stuck (displacement)
+  long pressing = 0;  ///< nodes whose faces pressed in the momentum update (displacement)
   long capped = 0;    ///< nodes whose pairs were not solved within the limit of sweeps
   int capped_node = std::numeric_limits<int>::max();  ///< the first of them, by number
   double penetration = 0;                             ///< m, largest -delta_n of a touching pair (displacement)

@@ -29,10 +29,19 @@ struct NodeContact {
   bool firm[most_pairs] = {};  ///< an interface that is too stiff for its fields to be let go in other stages
   ContactReport report{};
 
+  /// Fields of next to no mass are left out, and go on by themselves: the solution holds to so much of the node's
+  /// momenta, which may be any velocity to them, and any energy.
   RIVEN_INLINE void load(const NodeCracks& n, const Lattice& lattice) {
+    constexpr double least = 100 * Node::tolerance;
+    double all = 0;
     for (int f = 0; f < n.fields(); ++f) {
       slot[f] = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;
       node.mass[f] = motion.mass[slot[f]];
+      all += node.mass[f];
+    }
+    for (int f = 0; f < n.fields(); ++f) {
+      if (node.mass[f] <= least * all)
+        node.mass[f] = 0;
       if (node.mass[f] > 0)
         node.momentum[f] = motion.momentum_of(slot[f]);
     }
@@ -80,17 +89,20 @@ struct NodeContact {
     }
   }
 
-  /// `stuck`: some stuck in the last momentum update. Those go on as one in the other stages (pressed_faces.hpp).
-  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume, bool stuck) {
+  /// `pressed`: some faces pressed in the last momentum update. In the other stages those stay together across, and go
+  /// on as one if their law is to stick (pressed_faces.hpp).
+  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume, bool pressed) {
     const auto touch = [&](const Meeting& m) {
       Verdict v = judge(found, slot, node.mass, dt, m, relative_volume);
-      if (stuck && v.touch == Touch::sticks)
+      if (pressed && v.gap <= 0 && v.touch == Touch::sticks)
         v.touch = Touch::bonds;
+      if (pressed && v.gap <= 0 && v.touch == Touch::pushes)
+        v.pair.unilateral = false;
       return v;
     };
     const auto given = [&](const Meeting& m) { return found.prescribed.both_given(slot, m); };
     for (const Meeting& m : meetings)
-      if (m.law.law == ContactLaw::bonded || (stuck && m.law.law == ContactLaw::stick && !given(m)))
+      if (m.law.law == ContactLaw::bonded || (pressed && m.law.law == ContactLaw::stick && !given(m)))
         if (const Verdict v = touch(m); v.touch == Touch::bonds)
           list(m, v);
     for (const Meeting& m : meetings)
@@ -162,9 +174,12 @@ struct NodeContact {
     report.early = touched && relative_volume < found.v_sep;
   }
 
-  /// By what faces that stick press, N s.
+  /// By what faces press, N s.
   RIVEN_INLINE double pressing(const Outcome& out) const {
     double sum = 0;
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].law.law != ContactLaw::interface)
+        sum += std::max(out.lambda[k], 0.);
     for (int i = 0; i < node.stickings; ++i)
       if (out.stuck[i])
         sum += std::abs(dot(out.impulse[node.sticking[i].above], node.sticking[i].normal));
