@@ -15,6 +15,14 @@ inline namespace RIVEN_SIDE {
 
 namespace {
 
+bool any_crack(const Cracks& cracks, auto&& which) {
+  return std::any_of(cracks.contact.begin(), cracks.contact.end(), which);
+}
+
+bool bears_friction(const Cracks& cracks) {
+  return any_crack(cracks, [](const ContactSettings& c) { return friction_of(c) > 0; });
+}
+
 /// The contacts of a node that holds three cracks: rare, and kept out of the way of the others.
 template <class Real, ContactStage stage>
 RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, const ImpulseNotes& notes,
@@ -26,16 +34,40 @@ RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, co
   return acting;
 }
 
+/// Asks all nodes for the friction that holds their faces, and forgets where these have not pressed on each other.
+template <class Real>
+void ask_for_friction(const exec::Space& space, const FieldMotion<Real, ContactStage::after>& motion,
+                      const ContactFinder<Real>& found, double dt, const CrackFields& fields, const Lattice& lattice,
+                      const ContactSettings* laws, exec::Array<Vec2>& asked) {
+  asked.renew(fields.nodes.size());
+  Vec2* out = exec::data(asked);
+  const NodeCracks* nodes = exec::data(fields.nodes);
+  const std::uint8_t* held = exec::data(fields.held);
+  exec::parallel_for(space, "friction asked for", fields.nodes.size(), [=] RIVEN_KERNEL(long i) {
+    const NodeCracks& n = nodes[i];
+    out[i] = held[i] == 1 ? friction_asked(motion, found, dt, n, i, lattice, laws) : Vec2{};
+    if (found.stuck && found.pressed[n.node] == 0)
+      found.stuck[n.node] = 0;
+  });
+}
+
 template <ContactStage stage, class Real>
 void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFields& fields, const Cracks& cracks,
          ContactFinder<Real> found, double dt, ContactSums& sums, FieldImpulses& impulses, ContactReport& report) {
   const FieldMotion<Real, stage> motion(grid);
+  const ContactSettings* laws = exec::data(cracks.contact);
+  const Lattice lattice = grid.lattice;
   std::uint8_t* touched = nullptr;
   if constexpr (stage == ContactStage::after) {
     sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
     sums.touched.zero();
     if (sums.keep_touched)
       touched = exec::data(sums.touched);
+    if (bears_friction(cracks)) {
+      ask_for_friction(space, motion, found, dt, fields, lattice, laws, sums.asked);
+      found.around = {exec::data(std::as_const(sums.asked)), exec::data(fields.node_index), exec::data(fields.nodes),
+                      exec::data(fields.held)};
+    }
     if (fields.pressing > 0)
       fields.pressed.zero();
     fields.pressing = 0;
@@ -48,8 +80,6 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFie
   const ImpulseNotes notes(impulses, grid.lattice);
   const NodeCracks* nodes = exec::data(fields.nodes);
   const std::uint8_t* held = exec::data(fields.held);
-  const ContactSettings* laws = exec::data(cracks.contact);
-  const Lattice lattice = grid.lattice;
   const long count = fields.nodes.size();
   constexpr long ahead = 8;
   const ContactReport found_now = exec::parallel_sum<ContactReport>(
@@ -90,11 +120,8 @@ template <class Real>
 void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, const Cracks& cracks,
              const ContactRules& rules, ContactStage stage, double dt, const ContactParticles<Real>& of,
              ContactSums& sums, FieldImpulses& impulses, ContactReport& report) {
-  const auto any = [&](auto&& which) { return std::any_of(cracks.contact.begin(), cracks.contact.end(), which); };
-  const bool interfaces = any([](const ContactSettings& c) { return c.law == ContactLaw::interface; });
-  const bool parting = any([](const ContactSettings& c) {
-    return c.law == ContactLaw::stick || c.law == ContactLaw::frictionless || c.law == ContactLaw::coulomb;
-  });
+  const bool interfaces = any_crack(cracks, [](const ContactSettings& c) { return c.law == ContactLaw::interface; });
+  const bool parting = any_crack(cracks, [](const ContactSettings& c) { return keeps_apart(c.law); });
   const bool by_volume = parting && rules.detection == ContactDetection::volume;
   const bool by_position = parting && rules.detection == ContactDetection::displacement;
   const bool positions = sums.place.size() == 4L * grid.slots(), volumes = sums.volume.size() == grid.slots();
@@ -103,6 +130,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
       impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
   fields.pressed.resize(by_position ? grid.lattice.nodes() : 0);
+  fields.stuck.resize(by_position && bears_friction(cracks) ? grid.lattice.nodes() : 0);
   if (sums.keep_links)
     sums.links.resize(fields.nodes.size());
   const ContactFinder<Real> found{.by = rules.detection,
@@ -118,7 +146,9 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
                                   .slopes = nullptr,
                                   .noise = sums.noise,
                                   .links = sums.keep_links ? exec::data(sums.links) : nullptr,
-                                  .prescribed = prescribed_fields(sums)};
+                                  .prescribed = prescribed_fields(sums),
+                                  .around = {},
+                                  .stuck = fields.stuck.empty() ? nullptr : exec::data(fields.stuck)};
   const auto act = [&](auto at, const char* label) {
     run<decltype(at)::value>(space, label, grid, fields, cracks, found, dt, sums, impulses, report);
   };

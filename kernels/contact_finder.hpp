@@ -2,6 +2,7 @@
 #pragma once
 #include "core/laws/contact.hpp"
 #include "kernels/contact_meetings.hpp"
+#include "kernels/friction_around.hpp"
 #include "kernels/prescribed_fields.hpp"
 
 namespace riven {
@@ -24,9 +25,13 @@ struct ContactFinder {
   bool noise;          ///< ContactSums
   FieldLinks* links;   ///< ContactSums; null where not asked for
   PrescribedFields prescribed;
+  FrictionAround around;  ///< asks in the momentum update
+  std::uint8_t* stuck;    ///< CrackFields; null where none is kept
 
   /// By what faces of a node that sees one crack pressed in the last momentum update, N s; 0 in that stage itself.
   RIVEN_INLINE double last(int node) const { return slopes ? pressed[node] : 0; }
+  /// Has friction held them for so long that they go on as one?
+  RIVEN_INLINE bool settled(int node) const { return stuck && stuck[node] >= FrictionAround::settled; }
   /// How their fields move apart in a solid that goes on across the faces, m/s across and along them.
   RIVEN_INLINE Vec2 apart(long index, const long* slot, const double* mass, const Meeting& m) const {
     const Vec2 w = -distance_of(m, sums.place, slot, mass) * slopes[index];

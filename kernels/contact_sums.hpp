@@ -47,6 +47,7 @@ struct ContactSums {
   bool noise = true;                     ///< particles keep much that the grid does not see of their velocities
   double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
   exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
+  exec::Array<Vec2> asked;               ///< [flagged] N s, of one update; see friction_around.hpp
 };
 
 /// Where crack k of n = CrackFields::nodes[i] stands in ContactSums::area.

@@ -258,6 +258,7 @@ void visit_cracks(Cracks& c, CrackFields& fields, Visitor& f) {
   f.grown_records("cracks/junctions", c.junctions);
   f.growing("cracks/hashed", fields.hashed);
   f.growing("cracks/pressed", fields.pressed);
+  f.growing("cracks/stuck", fields.stuck);
   f.record("cracks/warnings", fields);
 }
 

@@ -75,6 +75,11 @@ RIVEN_INLINE int strictness(ContactLaw law) {
   return 0;
 }
 
+/// Coefficient of friction that faces bear.
+RIVEN_INLINE double friction_of(const ContactSettings& s) {
+  return s.law == ContactLaw::coulomb ? s.friction : 0;
+}
+
 /// May faces of this law part, but not overlap?
 inline bool keeps_apart(ContactLaw law) {
   return law == ContactLaw::frictionless || law == ContactLaw::coulomb || law == ContactLaw::stick;
@@ -96,7 +101,7 @@ RIVEN_INLINE bool stricter(const ContactSettings& a, const ContactSettings& b) {
 RIVEN_INLINE ContactPair touching_pair(const ContactSettings& s, int above, int below, Vec2 normal, double gap,
                                        double dt, bool held) {
   const double closing = held ? 0 : std::max(gap, 0.) / dt;
-  return {above, below, normal, {0, closing}, {0, 0}, !held, true, s.law == ContactLaw::coulomb ? s.friction : 0};
+  return {above, below, normal, {0, closing}, {0, 0}, !held, true, friction_of(s)};
 }
 
 /// phi^2 = A D dt^2 / m, from which on the interface is too stiff for the step to follow its oscillation.

@@ -169,9 +169,11 @@ struct CrackFields : CrackLists {
 
   exec::Array<EndOnCrack> ends;  ///< [2 cracks] first and last ends; empty where none lies on a crack
 
-  exec::Array<double> pressed;  ///< [nodes] N s, by which faces pressed in the last momentum update
-                                ///< (pressed_faces.hpp); empty where contact does not ask
-  long pressing = 0;            ///< nodes whose faces pressed
+  exec::Array<double> pressed;      ///< [nodes] N s, by which faces pressed in the last momentum update
+                                    ///< (pressed_faces.hpp); empty where contact does not ask
+  exec::Array<std::uint8_t> stuck;  ///< [nodes] in how many updates in a row, up to 255, friction has held them, too
+                                    ///< (friction_around.hpp); empty where no faces bear any
+  long pressing = 0;                ///< nodes whose faces pressed
 
   CrackLists former;      ///< as the last trace knew them
   bool relisted = false;  ///< the lists are others since then

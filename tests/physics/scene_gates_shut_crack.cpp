@@ -80,9 +80,8 @@ TEST(ShutCrack, SlidesAgainstItsFriction) {
   }
 }
 
-/// With 10 cells along half the crack its faces bear too little at any coefficient. Beside a large one little of K_II
-/// is left, of which that is much: cases/keys.md has these figures, and some in a plate twice as wide.
-TEST(ShutCrack, SlidesFurtherThanItsFrictionLetsIt) {
+/// With 10 cells along half the crack, and beside a large coefficient, too, where little of K_II is left.
+TEST(ShutCrack, SlidesAsFarAsItsFrictionLetsIt) {
   constexpr double a = 10 * mm;
   const auto K_II = [&](double mu) {
     Plate plate(pressed_plate(mu, a));
@@ -90,15 +89,11 @@ TEST(ShutCrack, SlidesFurtherThanItsFrictionLetsIt) {
     return std::abs(mean_tip(plate, 8).M_II);
   };
   const double free = K_II(0);
-  struct Figure {
-    double mu, most;
-  };
-  for (const auto& [mu, most] : {Figure{0.1, 1.08}, Figure{0.3, 1.08}, Figure{0.5, 1.15}, Figure{0.7, 1.45}}) {
+  for (const double mu : {0.1, 0.3, 0.5, 0.7}) {
     const double K = K_II(mu) / free / (1 - mu);
     report(fmt::format("shut crack of 20 cells, friction {}: K_II over (1 - mu) times that without", mu), K,
-           fmt::format("0.98 to {}", most));
-    EXPECT_GT(K, 0.98) << mu;
-    EXPECT_LT(K, most) << mu;
+           "1 +- 0.06");
+    EXPECT_NEAR(K, 1, 0.06) << mu;
   }
 }
 
