@@ -125,10 +125,15 @@ RIVEN_INLINE Meetings<cracks> find_meetings(const NodeCracks& n, HeldNormals w, 
   return m;
 }
 
-/// Distance of the mean positions of two fields along the normal, m; `place` and so on as below.
-RIVEN_INLINE double distance_of(const Meeting& m, const double* place, const long* slot, const double* mass) {
+/// From the mean position of the upper field to that of the lower one, m; `place` and so on as below.
+RIVEN_INLINE Vec2 between_means(const Meeting& m, const double* place, const long* slot, const double* mass) {
   const double *a = place + 4 * slot[m.above], *b = place + 4 * slot[m.below];
-  return dot(m.normal, (1 / mass[m.below]) * Vec2{b[0], b[1]} - (1 / mass[m.above]) * Vec2{a[0], a[1]});
+  return (1 / mass[m.below]) * Vec2{b[0], b[1]} - (1 / mass[m.above]) * Vec2{a[0], a[1]};
+}
+
+/// The same along the normal.
+RIVEN_INLINE double distance_of(const Meeting& m, const double* place, const long* slot, const double* mass) {
+  return dot(m.normal, between_means(m, place, slot, mass));
 }
 
 /// Opening of two faces along the normal, m. `place`: ContactSums::place; slots and masses of the node's fields.

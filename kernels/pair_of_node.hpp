@@ -1,5 +1,8 @@
 // The two fields of a node that sees one crack, without an interface, and how they meet.
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "kernels/contact_finder.hpp"
 #include "kernels/field_motion.hpp"
 
@@ -67,8 +70,7 @@ struct PairOfNode {
     constexpr double steepest = 10;
     if (!place)
       return {-1, 1};
-    const double *a = place + 4 * slot[meeting.above], *b = place + 4 * slot[meeting.below];
-    const Vec2 d = (1 / mass[meeting.below]) * Vec2{b[0], b[1]} - (1 / mass[meeting.above]) * Vec2{a[0], a[1]};
+    const Vec2 d = between_means(meeting, place, slot, mass);
     const double across_them = dot(d, meeting.normal), along = dot(d, turned(meeting.normal));
     const double slope =
         across_them > std::abs(along) / steepest ? along / across_them : std::copysign(steepest, along);
