@@ -34,18 +34,33 @@ RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, co
   return acting;
 }
 
+/// What a node asks of friction; see NodeContact::ask.
+template <class Real>
+RIVEN_FN void friction_asked_of(int held, const FieldMotion<Real, ContactStage::after>& motion,
+                                const ImpulseNotes& notes, const ContactFinder<Real>& found, double dt,
+                                const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
+                                Vec2* asked) {
+  constexpr ContactStage after = ContactStage::after;
+  if (held > 2)
+    NodeContact<3, Real, after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
+  else if (held == 2)
+    NodeContact<2, Real, after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
+  else if (held == 1)
+    asked[entry_of(n, index, 0, found.flagged)] = friction_asked(motion, found, dt, n, index, lattice, laws);
+}
+
 /// Asks all nodes for the friction that holds their faces, and forgets where these have not pressed on each other.
 template <class Real>
 void ask_for_friction(const exec::Space& space, const FieldMotion<Real, ContactStage::after>& motion,
-                      const ContactFinder<Real>& found, double dt, const CrackFields& fields, const Lattice& lattice,
-                      const ContactSettings* laws, exec::Array<Vec2>& asked) {
-  asked.renew(fields.nodes.size());
+                      const ImpulseNotes& notes, const ContactFinder<Real>& found, double dt, const CrackFields& fields,
+                      const Lattice& lattice, const ContactSettings* laws, exec::Array<Vec2>& asked) {
+  asked.renew(entries_of(fields));
   Vec2* out = exec::data(asked);
   const NodeCracks* nodes = exec::data(fields.nodes);
   const std::uint8_t* held = exec::data(fields.held);
   exec::parallel_for(space, "friction asked for", fields.nodes.size(), [=] RIVEN_KERNEL(long i) {
     const NodeCracks& n = nodes[i];
-    out[i] = held[i] == 1 ? friction_asked(motion, found, dt, n, i, lattice, laws) : Vec2{};
+    friction_asked_of(held[i], motion, notes, found, dt, n, i, lattice, laws, out);
     if (found.stuck && found.pressed[n.node] == 0)
       found.stuck[n.node] = 0;
   });
@@ -57,6 +72,7 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFie
   const FieldMotion<Real, stage> motion(grid);
   const ContactSettings* laws = exec::data(cracks.contact);
   const Lattice lattice = grid.lattice;
+  const ImpulseNotes notes(impulses, grid.lattice);
   std::uint8_t* touched = nullptr;
   if constexpr (stage == ContactStage::after) {
     sums.touched.resize(sums.keep_touched ? fields.nodes.size() : 0);
@@ -64,9 +80,9 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFie
     if (sums.keep_touched)
       touched = exec::data(sums.touched);
     if (bears_friction(cracks)) {
-      ask_for_friction(space, motion, found, dt, fields, lattice, laws, sums.asked);
+      ask_for_friction(space, motion, notes, found, dt, fields, lattice, laws, sums.asked);
       found.around = {exec::data(std::as_const(sums.asked)), exec::data(fields.node_index), exec::data(fields.nodes),
-                      exec::data(fields.held)};
+                      exec::data(fields.held), found.flagged};
     }
     if (fields.pressing > 0)
       fields.pressed.zero();
@@ -77,7 +93,6 @@ void run(const exec::Space& space, const char* label, Grid<Real>& grid, CrackFie
     find_slopes(space, motion, grid.lattice, fields, sums.slopes);
     found.slopes = exec::data(std::as_const(sums.slopes));
   }
-  const ImpulseNotes notes(impulses, grid.lattice);
   const NodeCracks* nodes = exec::data(fields.nodes);
   const std::uint8_t* held = exec::data(fields.held);
   const long count = fields.nodes.size();
@@ -126,8 +141,7 @@ void contact(const exec::Space& space, Grid<Real>& grid, CrackFields& fields, co
   const bool by_position = parting && rules.detection == ContactDetection::displacement;
   const bool positions = sums.place.size() == 4L * grid.slots(), volumes = sums.volume.size() == grid.slots();
   if ((by_position && !positions) || (by_volume && !volumes) ||
-      (interfaces && sums.area.size() != 2 * fields.nodes.size() + fields.third_normals.size()) ||
-      impulses.acted.size() != fields.nodes.size())
+      (interfaces && sums.area.size() != entries_of(fields)) || impulses.acted.size() != fields.nodes.size())
     fail({Exit::internal, "contact lacks the sums that its detection or its laws need", "contact", {}, {}, {}});
   fields.pressed.resize(by_position ? grid.lattice.nodes() : 0);
   fields.stuck.resize(by_position && bears_friction(cracks) ? grid.lattice.nodes() : 0);

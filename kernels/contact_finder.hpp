@@ -32,6 +32,11 @@ struct ContactFinder {
   RIVEN_INLINE double last(int node) const { return slopes ? pressed[node] : 0; }
   /// Has friction held them for so long that they go on as one?
   RIVEN_INLINE bool settled(int node) const { return stuck && stuck[node] >= FrictionAround::settled; }
+  /// Notes whether it holds those that press in this update.
+  RIVEN_INLINE void count_held(int node, bool held) const {
+    if (stuck)
+      stuck[node] = held ? static_cast<std::uint8_t>(std::min(stuck[node] + 1, 255)) : 0;
+  }
   /// How their fields move apart in a solid that goes on across the faces, m/s across and along them.
   RIVEN_INLINE Vec2 apart(long index, const long* slot, const double* mass, const Meeting& m) const {
     const Vec2 w = -distance_of(m, sums.place, slot, mass) * slopes[index];

@@ -63,15 +63,18 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     }
   } else if (pushes || (v.touch == Touch::sticks && last > 0)) {
     PairImpulse r = pushes ? pair.by_law() : PairImpulse{0, 0};
-    const double mu = v.pair.friction;
-    if (found.around.asked && r.lambda != 0 && mu > 0 && !pair.prescribed && found.around.holds(n, mu, lattice)) {
-      const double to_stick = pair.to_stick();
-      r.tau = held_along_stairs(to_stick, std::abs(r.lambda), mu, pair.stairs(found.sums.place));
-      held = r.tau == to_stick;
+    const double mu = friction_of(m.law);
+    if (found.around.asked && r.lambda != 0 && mu > 0 && !pair.prescribed) {
+      const Stairs stairs = stairs_of(m, found.sums.place, pair.slot, pair.mass);
+      if (const FrictionBounds b = found.around.borne(n, index, 0, mu, stairs, lattice); !b.none()) {
+        const double to_stick = pair.to_stick();
+        r.tau = b.within(to_stick, r.lambda);
+        held = r.tau == to_stick;
+      }
     }
     sticks = held || std::abs(r.tau) < mu * std::abs(r.lambda);
     if (last > 0)
-      r = hold(r, last, sticky, found.noise && m.law.friction == 0, pair.reduced_mass, pair.across,
+      r = hold(r, last, sticky, sticky || (found.noise && m.law.friction == 0), pair.reduced_mass, pair.across,
                found.apart(index, pair.slot, mass, m));
     now = r.lambda;
     touches = r.lambda != 0 || r.tau != 0;
@@ -88,8 +91,7 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
   if (stage == ContactStage::after && found.pressed && now > 0) {
     found.pressed[n.node] = now;
     ++report.pressing;
-    if (found.stuck)
-      found.stuck[n.node] = held ? static_cast<std::uint8_t>(std::min(found.stuck[n.node] + 1, 255)) : 0;
+    found.count_held(n.node, held);
   }
   if (v.touch != Touch::bonds) {
     report.penetration = std::max(report.penetration, -v.gap);

@@ -27,6 +27,8 @@ struct NodeContact {
   double gap[most_pairs] = {};
   double stick_gap[most_pairs] = {};
   bool firm[most_pairs] = {};  ///< an interface that is too stiff for its fields to be let go in other stages
+  bool held[most_pairs] = {};  ///< by friction, as told by the nodes around
+  double volume = 1;           ///< relative_volume()
   ContactReport report{};
 
   /// Fields of next to no mass are left out, and go on by themselves: the solution holds to so much of the node's
@@ -89,12 +91,16 @@ struct NodeContact {
     }
   }
 
-  /// `pressed`: some faces pressed in the last momentum update. In the other stages those stay together across, and go
-  /// on as one if their law is to stick (pressed_faces.hpp).
-  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, double relative_volume, bool pressed) {
+  /// Faces that pressed in the last momentum update stay together across in the other stages, and go on as one if their
+  /// law is to stick or friction has long held them (pressed_faces.hpp).
+  RIVEN_INLINE void detect(const Meetings<cracks>& meetings, const NodeCracks& n) {
+    const bool pressed = found.last(n.node) > 0, settled = found.settled(n.node);
+    const auto as_one = [&](const Meeting& m) {
+      return pressed && (m.law.law == ContactLaw::stick || (m.law.law == ContactLaw::coulomb && settled));
+    };
     const auto touch = [&](const Meeting& m) {
-      Verdict v = judge(found, slot, node.mass, dt, m, relative_volume);
-      if (pressed && v.gap <= 0 && v.touch == Touch::sticks)
+      Verdict v = judge(found, slot, node.mass, dt, m, volume);
+      if (as_one(m) && v.gap <= 0 && v.touch != Touch::apart)
         v.touch = Touch::bonds;
       if (pressed && v.gap <= 0 && v.touch == Touch::pushes)
         v.pair.unilateral = false;
@@ -102,7 +108,7 @@ struct NodeContact {
     };
     const auto given = [&](const Meeting& m) { return found.prescribed.both_given(slot, m); };
     for (const Meeting& m : meetings)
-      if (m.law.law == ContactLaw::bonded || (pressed && m.law.law == ContactLaw::stick && !given(m)))
+      if (m.law.law == ContactLaw::bonded || (as_one(m) && !given(m)))
         if (const Verdict v = touch(m); v.touch == Touch::bonds)
           list(m, v);
     for (const Meeting& m : meetings)
@@ -149,7 +155,34 @@ struct NodeContact {
     }
   }
 
-  RIVEN_INLINE void tally(const Outcome& out, double relative_volume) {
+  /// Lets friction bear what it does where it holds the faces around.
+  RIVEN_INLINE void bear_along_stairs(const NodeCracks& n, long index, const Lattice& lattice) {
+    for (int k = 0; k < node.pairs; ++k) {
+      const Meeting& m = pair[k];
+      const double mu = friction_of(m.law);
+      if (mu == 0 || (found.prescribed.of(slot[m.above]) | found.prescribed.of(slot[m.below])) != 0)
+        continue;
+      const Stairs stairs = stairs_of(m, found.sums.place, slot, node.mass);
+      const FrictionBounds b = found.around.borne(n, index, m.k, mu, stairs, lattice);
+      held[k] = !b.none();
+      if (held[k])
+        node.pair[k].friction = b;
+    }
+  }
+
+  /// Does friction hold all faces that press and bear any?
+  RIVEN_INLINE bool all_held(const Outcome& out) const {
+    bool all = true;
+    for (int k = 0; k < node.pairs; ++k) {
+      const auto [back, forward] = node.pair[k].friction;
+      const double lambda = out.lambda[k], tau = out.tau[k];
+      if (lambda > 0 && friction_of(pair[k].law) > 0)
+        all = all && held[k] && -back * lambda < tau && tau < forward * lambda;
+    }
+    return all;
+  }
+
+  RIVEN_INLINE void tally(const Outcome& out) {
     report.capped += !out.converged;
     bool touched = false;
     for (int k = 0; k < node.pairs; ++k) {
@@ -171,7 +204,7 @@ struct NodeContact {
       touched = true;
       report.penetration = std::max(report.penetration, -stick_gap[i]);
     }
-    report.early = touched && relative_volume < found.v_sep;
+    report.early = touched && volume < found.v_sep;
   }
 
   /// By what faces press, N s.
@@ -186,8 +219,8 @@ struct NodeContact {
     return sum;
   }
 
-  /// Links fields that are one now.
-  RIVEN_INLINE FieldLinks links(const Outcome& out) const {
+  /// The node with those fields bonded that are one now.
+  RIVEN_INLINE Node linked(const Outcome& out) const {
     Node linked = node;
     for (int k = 0; k < node.pairs; ++k)
       if (pair[k].law.law == ContactLaw::interface ? firm[k] : out.lambda[k] != 0)
@@ -195,19 +228,19 @@ struct NodeContact {
     for (int i = 0; i < node.stickings; ++i)
       if (out.stuck[i])
         linked.bond(node.sticking[i].above, node.sticking[i].below);
-    FieldLinks links;
-    links.link_groups(linked.group);
-    return links;
+    return linked;
   }
 
-  /// Does any of them act?
-  RIVEN_INLINE bool run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
+  RIVEN_INLINE HeldNormals normals(const NodeCracks& n, long index) const {
+    return held_normals<cracks>(n, index, found.normals, found.third_normals);
+  }
+
+  /// What meets; false if nothing does.
+  RIVEN_INLINE bool find(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
     load(n, lattice);
-    const Meetings<cracks> meetings =
-        find_meetings<cracks>(n, held_normals<cracks>(n, index, found.normals, found.third_normals), node.mass, laws);
+    const Meetings<cracks> meetings = find_meetings<cracks>(n, normals(n, index), node.mass, laws);
     if (meetings.count == 0)
       return false;
-    double volume = 1;
     found.sums.ask(index, n);
     if (found.sums.volume) {
       volume = 0;
@@ -215,7 +248,38 @@ struct NodeContact {
         volume += found.sums.volume[slot[f]];
       volume = relative_volume(lattice, n.node, volume);
     }
-    detect(meetings, volume, found.last(n.node) > 0);
+    detect(meetings, n);
+    return true;
+  }
+
+  /// What keeps the faces of crack k from overlapping and from sliding, N s (friction_around.hpp).
+  RIVEN_INLINE Vec2 asked(const NodeCracks& n, int k, Vec2 normal, const Node& as_one) const {
+    Vec2 given;
+    for (int f = 0; f < Node::fields; ++f)
+      if (const bool above = (f >> k & 1) == (n.side[k] == Side::above); node.mass[f] > 0 && !above)
+        given += node.mass[f] / as_one.group_mass(f) * as_one.group_momentum(f) - node.momentum[f];
+    const double lambda = dot(given, normal);
+    return lambda > 0 ? Vec2{lambda, dot(given, turned(normal))} : Vec2{};
+  }
+
+  /// The same of all its cracks, to their places in ContactSums::asked.
+  RIVEN_INLINE void ask(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
+                        Vec2* to) {
+    const bool meets = find(n, index, lattice, laws);
+    hold_prescribed();
+    const Node as_one = meets ? linked(solve(node)) : node;
+    for (int k = 0; k < cracks; ++k)
+      if (n.crack[k] >= 0)
+        to[entry_of(n, index, k, found.flagged)] =
+            friction_of(laws[n.crack[k]]) > 0 ? asked(n, k, normals(n, index).now(k), as_one) : Vec2{};
+  }
+
+  /// Does any of them act?
+  RIVEN_INLINE bool run(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws) {
+    if (!find(n, index, lattice, laws))
+      return false;
+    if (found.around.asked)
+      bear_along_stairs(n, index, lattice);
     double momenta = 0;
     for (int f = 0; f < Node::fields; ++f)
       momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
@@ -224,11 +288,13 @@ struct NodeContact {
       if (pair[k].law.law == ContactLaw::interface)
         respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
     const Outcome out = solve(node);
-    tally(out, volume);
-    if (stage == ContactStage::after && found.pressed && (found.pressed[n.node] = pressing(out)) > 0)
+    tally(out);
+    if (stage == ContactStage::after && found.pressed && (found.pressed[n.node] = pressing(out)) > 0) {
       ++report.pressing;
+      found.count_held(n.node, found.stuck && all_held(out));
+    }
     if (stage == ContactStage::after && found.links)
-      found.links[index] = links(out);
+      found.links[index].link_groups(linked(out).group);
     if (!out.converged)
       report.capped_node = n.node;
     bool acting = false;

@@ -31,7 +31,7 @@ void sum_segments(const exec::Space& space, const exec::Array<DomainSetting<Real
       });
     });
   });
-  exec::parallel_for(space, "contact areas", 2 * flagged + fields.third_normals.size(), [=] RIVEN_KERNEL(long i) {
+  exec::parallel_for(space, "contact areas", entries_of(fields), [=] RIVEN_KERNEL(long i) {
     if (out[i].area > 0)
       out[i].opening *= 1 / out[i].area;
   });
@@ -52,7 +52,7 @@ void contact_sums(const exec::Space& space, const ContactSumsChoice& choice, con
   sums.volume.renew(choice.volume ? slots : 0);
   sums.known.resize(fields.nodes.size());
   sums.known.zero();
-  sums.area.resize(choice.area ? 2 * fields.nodes.size() + fields.third_normals.size() : 0);
+  sums.area.resize(choice.area ? entries_of(fields) : 0);
   sums.area.zero();
   if (!sums.area.empty())
     with_shape(of.shape, [&](auto type) {

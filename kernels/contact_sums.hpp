@@ -33,8 +33,7 @@ struct ContactSums {
                                ///< empty: not asked for
   exec::Array<double> volume;  ///< [slots] m^2 in the plane; empty: not asked for
   exec::Array<std::uint8_t> known;    ///< [flagged] 1 where those of the node have been summed in this step
-  exec::Array<ContactArea> area;      ///< [2 flagged + nodes that may see three cracks or more] see entry_of; empty: no
-                                      ///< interface law
+  exec::Array<ContactArea> area;      ///< [entries_of()] empty: no interface law
   exec::Array<std::uint8_t> touched;  ///< [flagged] 1 where faces acted on each other in the momentum update, by more
                                       ///< than rounding; empty: not asked for
   bool keep_touched = false;          ///< asks for it
@@ -47,10 +46,15 @@ struct ContactSums {
   bool noise = true;                     ///< particles keep much that the grid does not see of their velocities
   double early_impulse = 0;              ///< how much of an impulse before the update particles feel (0: FLIP, 1: PIC)
   exec::Array<Vec2> slopes;              ///< [flagged] 1/s, of one stage; see pressed_faces.hpp
-  exec::Array<Vec2> asked;               ///< [flagged] N s, of one update; see friction_around.hpp
+  exec::Array<Vec2> asked;               ///< [entries_of()] N s, of one update; see friction_around.hpp
 };
 
-/// Where crack k of n = CrackFields::nodes[i] stands in ContactSums::area.
+/// Room for what holds for each crack of each node.
+inline long entries_of(const CrackFields& fields) {
+  return 2 * fields.nodes.size() + fields.third_normals.size();
+}
+
+/// Where crack k of n = CrackFields::nodes[i] stands in it.
 RIVEN_INLINE long entry_of(const NodeCracks& n, long i, int k, long flagged) {
   return k < 2 ? 2 * i + k : 2 * flagged + n.third;
 }

@@ -1,8 +1,5 @@
 // The two fields of a node that sees one crack, without an interface, and how they meet.
 #pragma once
-#include <algorithm>
-#include <cmath>
-
 #include "kernels/contact_finder.hpp"
 #include "kernels/field_motion.hpp"
 
@@ -64,17 +61,6 @@ struct PairOfNode {
   RIVEN_INLINE PairImpulse by_law() const {
     return prescribed ? coupled_impulse(verdict.pair, yielding, across)
                       : pair_impulse(verdict.pair, reduced_mass, across);
-  }
-  /// Slope of the stairs along which its fields meet; `place`: ContactSums, null where not summed.
-  RIVEN_INLINE Stairs stairs(const double* place) const {
-    constexpr double steepest = 10;
-    if (!place)
-      return {-1, 1};
-    const Vec2 d = between_means(meeting, place, slot, mass);
-    const double across_them = dot(d, meeting.normal), along = dot(d, turned(meeting.normal));
-    const double slope =
-        across_them > std::abs(along) / steepest ? along / across_them : std::copysign(steepest, along);
-    return {std::min(0., slope), std::max(0., slope)};
   }
   /// The impulse along the faces that keeps them from sliding.
   RIVEN_INLINE double to_stick() const { return reduced_mass.y * across.y; }

@@ -104,15 +104,15 @@ RIVEN_INLINE PairImpulse coupled_impulse(const ContactPair& p, Vec2 yielding, Ve
   if (!(nn > 0) || (p.unilateral && across <= 0))
     return {0, 0};
   double slope = 0;
-  if (p.friction > 0 && det > none * nn * tt) {
+  if (!p.friction.none() && det > none * nn * tt) {
     const double lambda = (tt * across - nt * velocity.y) / det, tau = (nn * velocity.y - nt * across) / det;
-    if (std::abs(tau) <= p.friction * (p.unilateral ? lambda : std::abs(lambda)))
+    if ((lambda >= 0 || !p.unilateral) && p.friction.within(tau, lambda) == tau)
       return {lambda, tau};
-    slope = tau > 0 ? p.friction : -p.friction;
-  } else if (p.friction > 0) {
+    slope = tau > 0 ? p.friction.forward : -p.friction.back;
+  } else if (!p.friction.none()) {
     const double slides = velocity.y - nt / nn * across;
     if (std::abs(slides) > at_rest * (std::abs(velocity.x) + std::abs(velocity.y)))
-      slope = slides > 0 ? p.friction : -p.friction;
+      slope = slides > 0 ? p.friction.forward : -p.friction.back;
   }
   const double w = across > 0 ? nn + slope * nt : nn - slope * nt, lambda = across / w;
   if (!(w > jams * nn))  // friction would take more than all of what yields

@@ -13,8 +13,11 @@
 // The slope of v is that between the nodes on either side of the crack,
 //   (n.grad) v = sum_axes n_axis (v(x + h e_axis) - v(x - h e_axis)) / 2h,
 // each the velocity of the field on that side of the crack. To keep faces that rub together altogether would not do:
-// with FLIP noise takes sliding faces apart for a step at a time, and what is held then is pushed on and on. Nor would
-// it do to keep along the crack what friction held but once: where faces slide noise lets some nodes stick for a step,
+// with FLIP noise takes sliding faces apart for a step at a time, and what is held then is pushed on and on. Those that
+// stick stay together across altogether, for no more impulse than they pressed with: as faces that approach each other
+// are stopped whatever w is, those that part would be pumped apart. At rest under 10, 4 and 3 MPa the tip of a crack at
+// 70 degrees so made 0.8 % of the energy of a plate with FMPM(4) in 1000 us. Nor would it do to keep along the crack
+// what friction held but once: where faces slide noise lets some nodes stick for a step,
 // and what they lose there no friction has taken. At a node that sees several cracks faces that pressed in the last
 // update stay together across, whatever w is, and go on as one field if their law is to stick. Let go there, three shut
 // cracks through one point gained 1 to 6 % of the energy of their plate in 3000 steps at rest. With FLIP faces without

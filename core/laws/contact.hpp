@@ -46,6 +46,18 @@ struct PairResponse {
   double bias = 0;  ///< m/s
 };
 
+/// What friction bears along faces, over what presses them together: tau / lambda within [-back, forward].
+struct FrictionBounds {
+  double back = 0, forward = 0;
+
+  RIVEN_INLINE bool none() const { return back == 0 && forward == 0; }
+  /// As much of tau as it bears.
+  RIVEN_INLINE double within(double tau, double lambda) const {
+    const double a = -back * lambda, b = forward * lambda;
+    return std::clamp(tau, std::min(a, b), std::max(a, b));
+  }
+};
+
 /// One pair of fields in contact. `below` and `above` number the fields of a node.
 struct ContactPair {
   int above = 0, below = 0;
@@ -53,7 +65,7 @@ struct ContactPair {
   PairResponse across, along;  ///< along the normal and the tangent
   bool unilateral = false;     ///< the normal impulse may only press
   bool frictional = false;     ///< the tangential impulse is bounded by friction times the normal one
-  double friction = 0;
+  FrictionBounds friction{};
 };
 
 /// Two fields that stick as soon as they approach each other.
@@ -85,6 +97,11 @@ inline bool keeps_apart(ContactLaw law) {
   return law == ContactLaw::frictionless || law == ContactLaw::coulomb || law == ContactLaw::stick;
 }
 
+/// Does this law let faces bear tension?
+inline bool holds_together(ContactLaw law) {
+  return law == ContactLaw::bonded || law == ContactLaw::interface;
+}
+
 /// True if `a` is stricter than `b`; among equals the greater friction or stiffness decides.
 RIVEN_INLINE bool stricter(const ContactSettings& a, const ContactSettings& b) {
   const int sa = strictness(a.law), sb = strictness(b.law);
@@ -101,7 +118,8 @@ RIVEN_INLINE bool stricter(const ContactSettings& a, const ContactSettings& b) {
 RIVEN_INLINE ContactPair touching_pair(const ContactSettings& s, int above, int below, Vec2 normal, double gap,
                                        double dt, bool held) {
   const double closing = held ? 0 : std::max(gap, 0.) / dt;
-  return {above, below, normal, {0, closing}, {0, 0}, !held, true, friction_of(s)};
+  const double mu = friction_of(s);
+  return {above, below, normal, {0, closing}, {0, 0}, !held, true, {mu, mu}};
 }
 
 /// phi^2 = A D dt^2 / m, from which on the interface is too stiff for the step to follow its oscillation.
@@ -138,11 +156,7 @@ RIVEN_INLINE PairImpulse pair_impulse(const ContactPair& p, Vec2 reduced_mass, V
   if (p.unilateral)
     lambda = std::max(0., lambda);
   double tau = response_impulse(p.along, reduced_mass.y, velocity.y);
-  if (p.frictional) {
-    const double limit = p.friction * std::abs(lambda);
-    tau = std::clamp(tau, -limit, limit);
-  }
-  return {lambda, tau};
+  return {lambda, p.frictional ? p.friction.within(tau, lambda) : tau};
 }
 
 }  // namespace riven

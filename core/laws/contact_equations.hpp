@@ -87,7 +87,7 @@ struct ContactEquations {
         A[row][row] = 1;
         A[row][n] = -r[row];
       } else if (!normal && state[k] != PairState::held) {
-        const double slope = state[k] == PairState::slides_forward ? p.friction : -p.friction;
+        const double slope = state[k] == PairState::slides_forward ? p.friction.forward : -p.friction.back;
         A[row][row] = 1;
         A[row][row - 1] = -slope;
         A[row][n] = slope * r[row - 1] - r[row];
@@ -101,6 +101,16 @@ struct ContactEquations {
         A[row][n] = m * ((1 - q.give) * u - q.bias) - q.give * r[row];
       }
     }
+  }
+
+  /// What friction would have to bear more to hold faces; negative where it could bear more than it has to.
+  static RIVEN_INLINE double beyond(const ContactPair& p, double lambda, double tau) {
+    const double size = std::abs(lambda), forward = lambda < 0 ? -tau : tau;
+    return std::max(forward - p.friction.forward * size, -forward - p.friction.back * size);
+  }
+  /// Which way they slide.
+  static RIVEN_INLINE PairState sliding(double lambda, double tau) {
+    return (tau > 0) == (lambda > 0) ? PairState::slides_forward : PairState::slides_back;
   }
 
   /// The state that a pair should be in, if not the one it was solved for; `badness` says how far off it is.
@@ -122,17 +132,15 @@ struct ContactEquations {
       badness = m * (un - p.across.bias);
       if (badness <= tiny)
         return state;
-      return p.frictional && p.friction == 0 ? PairState::slides_forward : PairState::held;
+      return p.frictional && p.friction.none() ? PairState::slides_forward : PairState::held;
     }
     if (p.unilateral && lambda < -tiny)
       return badness = -lambda, PairState::apart;
-    if (!p.frictional || p.friction == 0)
+    if (!p.frictional || p.friction.none())
       return state;
     if (state == PairState::held) {
-      badness = std::abs(tau) - p.friction * std::abs(lambda);
-      if (badness <= tiny)
-        return state;
-      return (tau > 0) == (lambda > 0) ? PairState::slides_forward : PairState::slides_back;
+      badness = beyond(p, lambda, tau);
+      return badness <= tiny ? state : sliding(lambda, tau);
     }
     badness = -m * ut * (tau > 0 ? 1 : -1);  // friction must oppose sliding
     return badness <= tiny || std::abs(tau) <= tiny ? state : PairState::held;
@@ -181,8 +189,8 @@ struct ContactEquations {
       const double lambda = r[2 * k], tau = r[2 * k + 1];
       if (p.unilateral && lambda == 0)
         state[k] = PairState::apart;
-      else if (p.frictional && std::abs(tau) >= p.friction * std::abs(lambda))
-        state[k] = (tau > 0) == (lambda > 0) || p.friction == 0 ? PairState::slides_forward : PairState::slides_back;
+      else if (p.frictional && beyond(p, lambda, tau) >= 0)
+        state[k] = p.friction.none() ? PairState::slides_forward : sliding(lambda, tau);
       else
         state[k] = PairState::held;
     }

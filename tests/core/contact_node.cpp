@@ -157,7 +157,7 @@ TEST(ContactNode, ConvergesNeverPullsAndNeverMakesEnergy) {
         ASSERT_LE(energy(c.node, out), energy(c.node) * (1 + 1e-14));
         for (int k = 0; k < c.node.pairs; ++k) {
           ASSERT_GE(out.lambda[k], -1e-14 * scale(c.node));
-          ASSERT_LE(std::abs(out.tau[k]), c.node.pair[k].friction * out.lambda[k] + 1e-14 * scale(c.node));
+          ASSERT_LE(std::abs(out.tau[k]), c.node.pair[k].friction.forward * out.lambda[k] + 1e-14 * scale(c.node));
         }
       }
     }
@@ -185,7 +185,7 @@ TEST(ContactNode, LeavesEveryPairWithItsLawFulfilled) {
           if (out.lambda[k] > tiny) {
             ASSERT_NEAR(spare, 0, tiny);
           }
-          if (std::abs(out.tau[k]) < p.friction * out.lambda[k] - tiny) {
+          if (std::abs(out.tau[k]) < p.friction.forward * out.lambda[k] - tiny) {
             ASSERT_NEAR(slip, 0, tiny);
           }
           if (std::abs(slip) > tiny) {

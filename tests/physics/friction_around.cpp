@@ -81,6 +81,55 @@ TEST(FrictionAround, HoldsACrackAsIfThereWereNone) {
   }
 }
 
+/// The largest difference of a component of the particles' stress from that of a plate without cracks, over its
+/// pressure. Friction of 0.6 bears twice what shears any plane there.
+double off_without_cracks(const std::vector<std::vector<Vec2>>& cracks, Transfer transfer, ContactLaw law) {
+  const double pressure = 10 * MPa, shear = 3 * MPa;
+  Scene s = pressed_and_sheared(pressure, shear, 0.6, transfer, cracks[0]);
+  for (size_t k = 1; k < cracks.size(); ++k)
+    s.cracks.push_back(crack(fmt::format("crack {}", k).c_str(), cracks[k]));
+  s.contact.law = law;
+  s.fracture.asked = false;
+  s.grid_damping = constant(120e3);
+  s.end_time = 700 * us;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  while (!m.finished())
+    m.step();
+  const double without[3] = {-pressure, -pressure, shear};
+  double off = 0;
+  for (size_t c = 0; c < 3; ++c)
+    for (const double stress : m.state.particles.stress[c])
+      off = std::max(off, std::abs(s.materials[0].density * stress - without[c]));
+  return off / pressure;
+}
+
+/// Through (0.3, 0.2) mm, which lies a fifth of a cell beside it.
+std::vector<Vec2> through_one_place(double degrees) {
+  const Vec2 along{std::cos(degrees * std::numbers::pi / 180), std::sin(degrees * std::numbers::pi / 180)};
+  const Vec2 place = Vec2{0.3 * mm, 0.2 * mm} + 0.2 * mm * turned(along);
+  return {place - 11 * mm * along, place + 12 * mm * along};
+}
+
+TEST(FrictionAround, HoldsCracksThatCross) {
+  const std::vector<Vec2> a = through_one_place(10), b = through_one_place(70), c = through_one_place(130);
+  using Lines = std::vector<std::vector<Vec2>>;
+  for (const Lines& cracks : {Lines{c}, Lines{a, b}, Lines{a, b, c}}) {
+    const double off = off_without_cracks(cracks, Transfer::flip, ContactLaw::coulomb);
+    gates::report(fmt::format("{} cracks through one place, held by friction, FLIP: stress off by, of the pressure",
+                              cracks.size()),
+                  off, "0.02");
+    EXPECT_LT(off, 0.02);
+  }
+  for (const ContactLaw law : {ContactLaw::coulomb, ContactLaw::stick}) {
+    const double off = off_without_cracks({a, b, c}, Transfer::fmpm, law);
+    gates::report(fmt::format("3 cracks through one place, {}, FMPM(2): stress off by, of the pressure",
+                              law == ContactLaw::stick ? "stuck" : "held by friction"),
+                  off, "0.2");
+    EXPECT_LT(off, 0.2);
+  }
+}
+
 TEST(FrictionAround, LeavesACrackItsShareOfTheShear) {
   constexpr double degrees = 17, slant = degrees * std::numbers::pi / 180, mu = 0.3;
   const double pressure = 6 * MPa, shear = 8 * MPa;
@@ -100,13 +149,22 @@ TEST(FrictionAround, LeavesACrackItsShareOfTheShear) {
 
 TEST(FrictionAround, BearsNoMoreThanItsStairsExplain) {
   const double mu = 0.3, pressed = 2;
-  EXPECT_EQ(held_along_stairs(0.5, pressed, mu, {0, 0}), 0.5);
-  EXPECT_NEAR(held_along_stairs(9, pressed, mu, {0, 0}), 2 * mu * pressed, 1e-15);
-  EXPECT_NEAR(held_along_stairs(-9, pressed, mu, {0, 0}), -2 * mu * pressed, 1e-15);
+  double around = 1;
+  const auto borne = [&](double to_stick, Stairs s) {
+    return held_along_stairs(mu, around, s).within(to_stick, pressed);
+  };
+  EXPECT_EQ(borne(0.5, {0, 0}), 0.5);
+  EXPECT_NEAR(borne(9, {0, 0}), 2 * mu * pressed, 1e-15);
+  EXPECT_NEAR(borne(-9, {0, 0}), -2 * mu * pressed, 1e-15);
   // up the stairs they bear more by the slope, and down no more than on the level
-  EXPECT_NEAR(held_along_stairs(9, pressed, mu, {0, 1}), (1 + 4 * mu) * pressed, 1e-15);
-  EXPECT_NEAR(held_along_stairs(-9, pressed, mu, {0, 1}), -4 * mu * pressed, 1e-15);
-  EXPECT_NEAR(held_along_stairs(-9, pressed, mu, {-0.5, 0}), -(0.5 + 2.5 * mu) * pressed, 1e-15);
+  EXPECT_NEAR(borne(9, {0, 1}), (1 + 4 * mu) * pressed, 1e-15);
+  EXPECT_NEAR(borne(-9, {0, 1}), -4 * mu * pressed, 1e-15);
+  EXPECT_NEAR(borne(-9, {-0.5, 0}), -(0.5 + 2.5 * mu) * pressed, 1e-15);
+  // and what is pressed less than the faces around bears as much as these
+  around = 0.3;
+  EXPECT_NEAR(borne(9, {0, 0}), 2 * mu * pressed, 1e-15);
+  around = 3;
+  EXPECT_NEAR(borne(9, {0, 0}), 6 * mu * pressed, 1e-15);
 }
 
 }  // namespace
