@@ -32,10 +32,11 @@ struct AreaSums {
                  *D = s.particles.F[3].data();
     const Real *VX = s.particles.v[0].data(), *VY = s.particles.v[1].data();
     const double kinetic = task.kinetic();
+    const Vec2 drift = task.drift;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const Mat2<double> F{A[i], B[i], C[i], D[i]}, H = task.gradient(F);
-      const double vx = kinetic * VX[i], vy = kinetic * VY[i], vgx = vx * gxx[k] + vy * gyx[k],
+      const double vx = kinetic * (VX[i] - drift.x), vy = kinetic * (VY[i] - drift.y), vgx = vx * gxx[k] + vy * gyx[k],
                    vgy = vx * gxy[k] + vy * gyy[k];
       sum_x[k] += moved[k] * (H.xx * ax[k] + H.yx * ay[k] - vgx * F.xx - vgy * F.yx);
       sum_y[k] += moved[k] * (H.xy * ax[k] + H.yy * ay[k] - vgx * F.xy - vgy * F.yy);

@@ -12,10 +12,10 @@ struct Band {
   static constexpr int lanes = exec::lanes;
   alignas(64) double rx[lanes], ry[lanes];  ///< m, from the tip
   alignas(64) double gx[lanes], gy[lanes];  ///< 1/m, gradient of q
-  alignas(64) double vx[lanes], vy[lanes];
-  alignas(64) double mass[lanes];        ///< kg/m, per thickness
-  alignas(64) double first_area[lanes];  ///< m^2
-  alignas(64) double energy[lanes];      ///< m^2/s^2, strain energy per mass, and kinetic where it counts
+  alignas(64) double vx[lanes], vy[lanes];  ///< m/s, beyond TipTask::drift
+  alignas(64) double mass[lanes];           ///< kg/m, per thickness
+  alignas(64) double first_area[lanes];     ///< m^2
+  alignas(64) double energy[lanes];         ///< m^2/s^2, strain energy per mass, and kinetic where it counts
   alignas(64) double sxx[lanes], syy[lanes], sxy[lanes];  ///< m^2/s^2, Kirchhoff stress per mass
   alignas(64) double Fxx[lanes], Fxy[lanes], Fyx[lanes], Fyy[lanes];
   alignas(64) double sign[lanes];  ///< of the known fields
@@ -105,6 +105,7 @@ struct Band {
     const double *A = p.F[0].data(), *B = p.F[1].data(), *C = p.F[2].data(), *D = p.F[3].data();
     const JDomain d = task.domain;
     const double half = 0.5 * task.kinetic();
+    const Vec2 drift = task.drift;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const auto& solid = solid_of(k);
@@ -117,7 +118,7 @@ struct Band {
       state.xx = SX[i];
       state.yy = SY[i];
       state.xy = SXY[i];
-      const double m = (k < count ? 1.0 : 0.0) * M[i], v0 = VX[i], v1 = VY[i];
+      const double m = (k < count ? 1.0 : 0.0) * M[i], v0 = VX[i] - drift.x, v1 = VY[i] - drift.y;
       const double first = m * solid.specific_area, area = first * state.J;
       filled[right][k] += q.edge_x == right ? area * q.slope_x : 0;
       filled[left][k] += q.edge_x == left ? area * q.slope_x : 0;

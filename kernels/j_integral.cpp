@@ -70,6 +70,8 @@ class TipSummer {
   /// Meanwhile asks for the data of the next tip.
   void sum(TipTask& task, const Patch& patch, Patch& next) const {
     Sums sums(task, next);
+    if (task.kinetic() > 0)
+      task.drift = mean_velocity(task.domain, patch);
     with_flag(task.sums_area(), [&](auto area) {
       for (const auto [first, last] : patch.stretches)
         look<decltype(area)::value>(sums, first, last);
@@ -110,6 +112,20 @@ class TipSummer {
     // leaves the lists as they are: to zero them would cost as much as to fill them
     Sums(TipTask& to_fill, Patch& to_ask_for) : task(to_fill), next(to_ask_for) {}
   };
+
+  /// Of the particles on which q falls.
+  Vec2 mean_velocity(const JDomain& d, const Patch& patch) const {
+    const Particles<Real, 2>& p = s_.particles;
+    double mass = 0;
+    Vec2 momentum;
+    for (const auto [first, last] : patch.stretches)
+      for (int k = first; k < last; ++k)
+        if (const double q = d.weight({p.x[0][k] - d.tip.x, p.x[1][k] - d.tip.y}); q > 0 && q < 1) {
+          mass += p.mass[k];
+          momentum += double{p.mass[k]} * Vec2{p.v[0][k], p.v[1][k]};
+        }
+    return mass > 0 ? momentum * (1 / mass) : Vec2{};
+  }
 
   /// Chooses particles of the band, and of the area where that is asked for.
   template <bool Area>

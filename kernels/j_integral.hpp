@@ -16,7 +16,8 @@
 // Around a tip that runs steadily both parts of P_K grow as 1/r^2 and cancel at each place. What the grid makes of them
 // a few cells about the tip does not cancel, as it smooths a and grad v unlike, and the tip runs by steps of a
 // particle. So of a tip that runs the integral is that of its core, a contour of its own within which P_K is left out:
-// sum a_p (q - q_core) P_K.
+// sum a_p (q - q_core) P_K. In it v is that beyond the mean velocity around the tip, by which J does not change where
+// its sums are exact: v^2/2 of a solid that flies or spins would else make errors of what opens the crack.
 #pragma once
 #include <limits>
 #include <optional>
@@ -66,6 +67,7 @@ struct TipTask {
   const PlaneElasticity* solid = nullptr;
   double thickness = 1;  ///< m, of the solid
   RunningTip running;
+  Vec2 drift;                             ///< m/s, mean velocity of the particles around it, if v^2/2 counts
   const std::uint8_t* touched = nullptr;  ///< ContactSums::touched; none: faces that are close may press on each other
   bool inertia = false;                   ///< asks for what it adds to TipSums::area
   const BodyForces* forces = nullptr;     ///< none: there are none
