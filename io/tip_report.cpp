@@ -19,9 +19,12 @@ std::string name_of(const Tip& tip, const Cracks& cracks) {
   return cracks.names[static_cast<std::size_t>(tip.crack)] + " " + end_name(tip.last) + " ";
 }
 
-/// How near a tip is to growth; 0 where there is none any more.
+/// How near a tip is to growth; 0 where there is none any more. One that has grown goes by what it has met between its
+/// checks.
 double load_of(const Scene& scene, const Tip& t) {
-  return t.open && t.grows ? growth_load(growth_rule_at(scene, t), t) : 0;
+  if (!t.open || !t.grows)
+    return 0;
+  return t.length > 0 ? t.load : growth_load(growth_rule_at(scene, t), t);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class AroundTip {
     Tip* nearest = nullptr;
     double least = s_.grid.lattice.h;
     for (Tip& t : s_.tips) {
-      if (&t == &tip_ || !t.open)
+      if (&t == &tip_ || !t.open || !stops_growth(s_.cracks, t.crack))
         continue;
       const Vec2 r = s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - place;
       const double d = norm(r);
@@ -55,6 +55,9 @@ class AroundTip {
     }
     return nearest;
   }
+
+  /// Does a way lead out of the solid, or into another crack, within so many cells?
+  bool leads_out(Vec2 way, double cells) const { return length_out(way, cells * s_.grid.lattice.h).has_value(); }
 
   /// The way nearest to straight on that leads out of the solid or into another crack within the contour of so many
   /// cells, or, at an angle, within the cells that the least contour takes: what is left of the solid there none can

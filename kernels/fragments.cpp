@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/laws/contact.hpp"
 #include "kernels/crack_step.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
@@ -61,6 +62,19 @@ class Corners {
   FieldSlots slots_;
 };
 
+/// Joins what lies on either side of cracks that hold their faces together.
+template <class Real>
+void join_across(const State<Real, 2>& s, Sets& sets) {
+  const CrackFields& fields = s.fields;
+  const FieldSlots slots(fields, s.grid.lattice.nodes());
+  for (int i = 0; i < fields.nodes.size(); ++i) {
+    const NodeCracks& n = fields.nodes[i];
+    for (int k = 0; k < fields.held[i]; ++k)
+      for (int f = 0; f < n.fields() && holds_together(s.cracks.contact[n.crack[k]].law); ++f)
+        sets.join(static_cast<size_t>(slots.of(n.node, f)), static_cast<size_t>(slots.of(n.node, f ^ 1 << k)));
+  }
+}
+
 template <class Shape, class Real>
 std::vector<Fragment> fragments(const State<Real, 2>& s) {
   const Corners<Shape, Real> corners(s);
@@ -70,6 +84,7 @@ std::vector<Fragment> fragments(const State<Real, 2>& s) {
     for (const size_t slot : at)
       sets.join(at[0], slot);
   }
+  join_across(s, sets);
   std::vector<Fragment> by_set(sets.size());
   for (int p = 0; p < s.particles.count(); ++p) {
     Fragment& f = by_set[sets.of(corners.of(p)[0])];

@@ -23,6 +23,7 @@ namespace {
 
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
+constexpr double slanted = 2;      ///< contours within which a way that the rule asks for leads out of what is left
 constexpr double still = 20;       ///< segments' time without growth after which a tip has arrested
 constexpr double swings = 400;     ///< segments' time within which a tip at rest forgets what it has met
 constexpr double unseen = 4;  ///< cells that a wave may go before a tip at rest is looked at again: its least contour
@@ -119,13 +120,23 @@ class Growth {
   /// though the least contour takes in too little of the solid to say where to.
   std::optional<Vec2> next_way(double since) {
     if (!tip_.sound)
-      return tip_.running || load_now() >= 1 ? around_.way_out(scene_.fracture.contour) : std::nullopt;
+      return tip_.running || load_now() >= 1 ? last_way() : std::nullopt;
     if (tip_.running ? has_gone_on(since) : load_now() >= 1) {
       const Vec2 ahead = around_.ahead, asked = growth_direction(rule_, tip_, ahead);
       const double angle = around_.told() * std::atan2(cross(ahead, asked), dot(ahead, asked));
       return std::cos(angle) * ahead + std::sin(angle) * turned(ahead);
     }
     return std::nullopt;
+  }
+
+  /// Out of what is left of the solid: in the direction that the rule asks for whatever the modes say, if it asks for
+  /// one and that leads out.
+  std::optional<Vec2> last_way() const {
+    const int contour = scene_.fracture.contour;
+    if (rule_.direction != GrowthDirection::hoop)
+      if (const Vec2 asked = growth_direction(rule_, tip_, around_.ahead); around_.leads_out(asked, slanted * contour))
+        return asked;
+    return around_.way_out(contour);
   }
 
   /// m, by which the crack grows next.
@@ -148,6 +159,13 @@ class Growth {
     by_J.drive_II = tip_.K_II;
     by_J.release = tip_.J;
     return std::min(growth_load(rule_, tip_), growth_load(rule_, by_J));
+  }
+
+  /// J/m^2, taken up by its growth. Where no contour is sound: as on its way until then.
+  double release_now() const {
+    if (tip_.sound)
+      return tip_.release;
+    return tip_.way.time > 0 ? mean_release(tip_.way) : std::min(tip_.release, tip_.J);
   }
 
   void meet(Tip& other) {
@@ -258,7 +276,7 @@ class Growth {
     tip_.grew = now_;
     tip_.checks = 0;
     tip_.length += segment;
-    const double released = std::max(0., tip_.release) * segment * thickness_;
+    const double released = std::max(0., release_now()) * segment * thickness_;
     tip_.released += released;
     s_.ledger.energy.fracture += released;
   }

@@ -59,6 +59,10 @@ Rectangle box_of(const Cracks& cracks, int crack) {
   return box;
 }
 
+bool stops_growth(const Cracks& cracks, int crack) {
+  return cracks.contact[static_cast<size_t>(crack)].law != ContactLaw::bonded;
+}
+
 std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
                                        double beside, const std::vector<Rectangle>& boxes) {
   const int tip = cracks.end_point(crack, last), own = last ? tip - 1 : tip;
@@ -81,7 +85,7 @@ std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool las
   };
   std::vector<int> near;
   for (int c = 0; c < cracks.count(); ++c)
-    if (!elsewhere(c))
+    if (!elsewhere(c) && (c == crack || stops_growth(cracks, c)))
       near.push_back(c);
   for (const int c : near)
     for (int k = cracks.end_point(c, false); k < cracks.end_point(c, true); ++k) {

@@ -25,12 +25,16 @@ struct Obstacle {
   bool end_last = false;
 };
 
+/// Do other cracks end on this one? Not where its faces never part.
+bool stops_growth(const Cracks& cracks, int crack);
+
 /// The least rectangle around a crack.
 Rectangle box_of(const Cracks& cracks, int crack);
 
 /// The first crack in the way of the end of one that goes straight on for `reach` (m) along the unit vector `way`: one
 /// that it crosses, or one whose end lies within `beside` of the way. The crack itself counts, too, but for the segment
-/// at the end. `boxes`: around each crack, where they are known; cracks that lie elsewhere are not looked at.
+/// at the end; others that stop none do not. `boxes`: around each crack, where they are known; cracks that lie
+/// elsewhere are not looked at.
 std::optional<Obstacle> first_obstacle(const Cracks& cracks, int crack, bool last, Vec2 way, double reach,
                                        double beside, const std::vector<Rectangle>& boxes = {});
 

@@ -22,7 +22,8 @@
 // growth. By the mean it is 0.95 to 1.02 after some segments in a double cantilever beam whose arms are drawn apart at
 // 10 and 20 mm/s, and 0.9 to 1.05 at 40 (cells of 1 mm). That is a mean of means,
 //   m' = (G - m) / T,   n' = (m - n) / T,   2 m - n,
-// which lags behind no load that rises steadily. What is beyond all swings so far, such as a wave, counts at once.
+// which lags behind no load that rises steadily. What is beyond all swings so far, such as a wave, counts at once. A
+// tip is offered no more than twice its release of the moment: one that has been let go altogether stays where it is.
 #pragma once
 #include "core/state/tips.hpp"
 

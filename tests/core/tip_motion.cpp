@@ -109,6 +109,15 @@ TEST(TipMotion, RecallsTheMeanOfItsWayOnceItStops) {
   EXPECT_EQ(offered_at_rest(later, 70, 10e-3, 503e-6), 70);
 }
 
+TEST(TipMotion, OffersLittleToATipThatIsLetGo) {
+  TipWay way;
+  start(way, 300, 1e-6);
+  follow(way, 330, 21e-6);
+  stop(way, 333, 200e-6, 21e-6);
+  EXPECT_NEAR(offered_at_rest(way, 5, 200e-6, 22e-6), 10, 1e-12);
+  EXPECT_EQ(offered_at_rest(way, -5, 200e-6, 23e-6), 0);
+}
+
 // At the speed of waves itself 1 - v / c vanishes.
 TEST(TipMotion, SlowsFromTheSpeedOfWavesWhereLittleDrivesIt) {
   const TipWay way = steady(wave, 120, 0.01e-6);

@@ -108,6 +108,7 @@ TEST(ResultsTips, HaveColumnsUpToAReasonableNumber) {
   tips[1].speed = 7;
   tips[1].grows = true;
   tips[1].drive_I = 4;
+  tips[1].load = 0.75;
   Scene scene;
   scene.cracks.resize(2);
   scene.growth = GrowthRule{};
@@ -123,7 +124,11 @@ TEST(ResultsTips, HaveColumnsUpToAReasonableNumber) {
   const Vec2 end = cracks.plane[cracks.end_point(1, true)];
   EXPECT_EQ(columns[14].name, "high last load");  // of the one that grows
   EXPECT_EQ((std::vector<double>{row.begin() + 7, row.begin() + 15}),
-            (std::vector<double>{end.x, end.y, 0.5, 9, 3, -1, 7, 0.8}));
+            (std::vector<double>{end.x, end.y, 0.5, 9, 3, -1, 7, 0.75}));
+  tips[1].length = 0;
+  row.clear();
+  add_tip_values(scene, tips, cracks, row);
+  EXPECT_EQ(row[14], 0.8);  // one that has not grown goes by what drives it now
   const std::vector<HistoryColumn> far = reading_columns({"far", {}}, tips, cracks);
   row.clear();
   add_reading_values(tips, row);

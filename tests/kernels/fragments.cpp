@@ -55,6 +55,15 @@ TEST(Fragments, AreWhatCracksCutOff) {
                    {1 - 0.4375 * 0.4375, 0.4375 * 0.4375});
 }
 
+TEST(Fragments, AreWholeWhereFacesHoldTogether) {
+  const std::vector<Vec2> across{{-0.1, 0.28}, {1.1, 0.28}}, upward{{0.47, -0.1}, {0.47, 1.1}};
+  Scene s = plate({across, upward});
+  for (const ContactLaw law : {ContactLaw::bonded, ContactLaw::interface}) {
+    s.cracks[0].contact = ContactSettings{law, 0, 1e9, 1e9};
+    expect_fragments("one of two that cross", s, {0.53125, 0.46875});
+  }
+}
+
 /// Where the two halves are after they have parted.
 TEST(Fragments, AreFoundWhereParticlesAreNow) {
   Scene s = plate({{{0.47, -0.1}, {0.47, 1.1}}});

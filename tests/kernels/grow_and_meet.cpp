@@ -282,6 +282,48 @@ TEST(GrowCracks, BreakWhatIsLeftBeforeAnEdge) {
   }
 }
 
+/// What contours give that cannot be trusted counts in no energy.
+TEST(GrowCracks, TakeUpWhatTheyHaveMetWhereNoContourIsSound) {
+  Driven run(plate({crack("edge", {{-1, 8.1}, {6, 8.1}})}, 25), [&](Tip& t) {
+    open(t);
+    t.sound = t.length < 15.5;
+    if (!t.sound)
+      t.J = t.release = 1e6;
+  });
+  run.to_the_end();
+  const Tip& tip = run.m.state.tips[0];
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+  EXPECT_GT(tip.length, 17);
+  EXPECT_NEAR(run.m.state.ledger.energy.fracture, 3 * 0.5 * tip.length, 0.01 * tip.length);
+}
+
+TEST(GrowCracks, PassOnesWhoseFacesNeverPart) {
+  Scene scene = plate({crack("edge", {{-1, 8.1}, {6, 8.1}}), crack("across", {{14, -1}, {14, 17}})}, 25);
+  scene.cracks[1].contact = ContactSettings{ContactLaw::bonded, 0, 0, 0};
+  Driven run(scene, open);
+  run.to_the_end();
+  EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+  EXPECT_GT(run.m.state.events.back().place.x, 23);
+}
+
+/// Where its rule says which way whatever the modes say, it goes that way through what is left, too.
+TEST(GrowCracks, BreakThroughInTheDirectionOfTheirRule) {
+  for (const bool fixed : {true, false}) {
+    const std::vector<Vec2> points = fixed ? std::vector<Vec2>{{-1, 7}, {3, 7}} : std::vector<Vec2>{{-1, 5}, {3, 7}};
+    Scene scene = plate({crack("edge", points)}, 25);
+    scene.growth->direction = fixed ? GrowthDirection::fixed : GrowthDirection::self_similar;
+    scene.growth->heading = {2, 1};
+    Driven run(scene, [&](Tip& t) {
+      open(t);
+      t.sound = t.length < 15;  // two cells below the edge, to which it goes by 27 degrees
+    });
+    run.to_the_end();
+    EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));
+    const Vec2 out = run.m.state.events.back().place;
+    EXPECT_NEAR((out.y - 7) / (out.x - 3), 0.5, 0.02) << (fixed ? "fixed" : "self-similar");
+  }
+}
+
 /// One that runs along an edge less than a cell away breaks through to it where no contour fits in between.
 TEST(GrowCracks, BreakThroughToAnEdgeBesideTheirWay) {
   for (const double y : {0.9, 15.1}) {
