@@ -21,7 +21,9 @@
 // with d from the mean position of the upper field's particles to that of the lower one's, which has the direction of
 // the stairs' normal: tan of the angles above, to 0.01. Unbounded, impulses of either sign grow from node to node next
 // to where faces slide, and K_II there in 1000 us from 0.8 to 1.16 of 0.9 MPa m^0.5; with 3 mu contact makes 1 % of the
-// energy of a plate at 45 degrees, and with mu faces next to a tip that should be held slip with FLIP.
+// energy of a plate at 45 degrees, and with mu faces next to a tip that should be held slip with FLIP. A node that is
+// pressed less than those around are in the mean bears as much as they do: a field of few particles is, and let go it
+// moves alone, until FLIP has stress beside a crack at 130 degrees off by all of the pressure that holds it.
 //
 // Faces that have stuck in `settled` updates in a row go on as those of the law stick do in the stages without forces:
 // let go there, those that are next to sliding creep on. It is alike with 4 and with 30 updates.
