@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <string>
 #include <system_error>
@@ -50,9 +51,11 @@ void obey(CLI::App& app, int argc, char** argv) {
 /// Lets threads that wait for each other spin for microseconds, then sleep. By default they spin for milliseconds, in
 /// which on a machine that is shared others are kept from the very work that is waited for: two runs at once on two
 /// cores take ten times as long, and more. The OpenMP runtime reads this as the program is loaded, so that it starts
-/// again, unless the user has chosen; where it cannot, it goes on.
+/// again, unless the user has chosen; where it cannot, it goes on. Under valgrind it would start anew without that.
 void wait_briefly(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT"))
+  const char* preloaded = std::getenv("LD_PRELOAD");
+  const bool under_valgrind = preloaded != nullptr && std::strstr(preloaded, "vgpreload") != nullptr;
+  if (under_valgrind || std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT"))
     return;
   setenv("GOMP_SPINCOUNT", "1000", 0);
   execv("/proc/self/exe", argv);

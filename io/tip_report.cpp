@@ -19,8 +19,7 @@ std::string name_of(const Tip& tip, const Cracks& cracks) {
   return cracks.names[static_cast<std::size_t>(tip.crack)] + " " + end_name(tip.last) + " ";
 }
 
-/// How near a tip is to growth; 0 where there is none any more. One that has grown goes by what it has met between its
-/// checks.
+/// How near a tip is to growth; 0 where there is none any more. For one that has grown: at its last check.
 double load_of(const Scene& scene, const Tip& t) {
   if (!t.open || !t.grows)
     return 0;

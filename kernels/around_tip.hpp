@@ -41,7 +41,7 @@ class AroundTip {
     Tip* nearest = nullptr;
     double least = s_.grid.lattice.h;
     for (Tip& t : s_.tips) {
-      if (&t == &tip_ || !t.open || !stops_growth(s_.cracks, t.crack))
+      if (&t == &tip_ || !t.open || (t.crack != tip_.crack && !stops_growth(s_.cracks, t.crack)))
         continue;
       const Vec2 r = s_.cracks.plane[s_.cracks.end_point(t.crack, t.last)] - place;
       const double d = norm(r);

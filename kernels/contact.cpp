@@ -34,17 +34,24 @@ RIVEN_FN RIVEN_ONCE bool three_cracks(const FieldMotion<Real, stage>& motion, co
   return acting;
 }
 
-/// What a node asks of friction; see NodeContact::ask.
+/// What such a node asks of friction; see NodeContact::ask.
+template <class Real>
+RIVEN_FN RIVEN_ONCE void three_ask(const FieldMotion<Real, ContactStage::after>& motion, const ImpulseNotes& notes,
+                                   const ContactFinder<Real>& found, double dt, const NodeCracks& n, long index,
+                                   const Lattice& lattice, const ContactSettings* laws, Vec2* asked) {
+  NodeContact<3, Real, ContactStage::after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
+}
+
+/// What any node asks.
 template <class Real>
 RIVEN_FN void friction_asked_of(int held, const FieldMotion<Real, ContactStage::after>& motion,
                                 const ImpulseNotes& notes, const ContactFinder<Real>& found, double dt,
                                 const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
                                 Vec2* asked) {
-  constexpr ContactStage after = ContactStage::after;
   if (held > 2)
-    NodeContact<3, Real, after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
+    three_ask(motion, notes, found, dt, n, index, lattice, laws, asked);
   else if (held == 2)
-    NodeContact<2, Real, after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
+    NodeContact<2, Real, ContactStage::after>{motion, notes, found, dt}.ask(n, index, lattice, laws, asked);
   else if (held == 1)
     asked[entry_of(n, index, 0, found.flagged)] = friction_asked(motion, found, dt, n, index, lattice, laws);
 }

@@ -25,8 +25,7 @@
 //
 // By displacement, faces that pressed on each other stay together in the stages without forces as far as the solid
 // about them goes on: see pressed_faces.hpp.
-// At a node that sees one crack friction holds the faces if it holds those of the nodes around: see
-// friction_around.hpp.
+// Friction holds the faces of a node if it holds those of the nodes around: see friction_around.hpp.
 //
 // Stages: before the forces and after a second extrapolation momenta change; after the update velocities change, and
 // the accelerations by dv/dt, so that bonded fields move their particles as one field would (Nairn and Aimene,

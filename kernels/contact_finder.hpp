@@ -1,5 +1,8 @@
 // Whether the faces between two fields of a node touch: detection by volume, velocity or displacement (contact.hpp).
 #pragma once
+#include <algorithm>
+#include <cstdint>
+
 #include "core/laws/contact.hpp"
 #include "kernels/contact_meetings.hpp"
 #include "kernels/friction_around.hpp"

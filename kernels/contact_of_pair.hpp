@@ -23,7 +23,7 @@ RIVEN_INLINE Vec2 friction_asked(const FieldMotion<Real, ContactStage::after>& m
   if (!pair.find(motion, found, dt, n, index, lattice, laws, apart) || pair.verdict.touch != Touch::pushes)
     return {};
   const PairImpulse r = pair.by_law();
-  return r.lambda == 0 ? Vec2{} : Vec2{std::abs(r.lambda), pair.prescribed ? r.tau : pair.to_stick()};
+  return r.lambda > 0 ? Vec2{r.lambda, pair.prescribed ? r.tau : pair.to_stick()} : Vec2{};
 }
 
 /// The contact of a node that sees one crack, without an interface: the common case, and the same laws without the
@@ -66,9 +66,9 @@ RIVEN_INLINE bool one_contact(const FieldMotion<Real, stage>& motion, const Impu
     const double mu = friction_of(m.law);
     if (found.around.asked && r.lambda != 0 && mu > 0 && !pair.prescribed) {
       const Stairs stairs = stairs_of(m, found.sums.place, pair.slot, pair.mass);
-      if (const FrictionBounds b = found.around.borne(n, index, 0, mu, stairs, lattice); !b.none()) {
+      if (const FrictionBounds bounds = found.around.borne(n, index, 0, mu, stairs, lattice); !bounds.none()) {
         const double to_stick = pair.to_stick();
-        r.tau = b.within(to_stick, r.lambda);
+        r.tau = bounds.within(to_stick, r.lambda);
         held = r.tau == to_stick;
       }
     }

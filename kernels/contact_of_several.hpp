@@ -170,16 +170,18 @@ struct NodeContact {
     }
   }
 
-  /// Does friction hold all faces that press and bear any?
+  /// Does friction hold all faces that press and bear any, of which there are some?
   RIVEN_INLINE bool all_held(const Outcome& out) const {
-    bool all = true;
+    bool any = false, all = true;
     for (int k = 0; k < node.pairs; ++k) {
       const auto [back, forward] = node.pair[k].friction;
       const double lambda = out.lambda[k], tau = out.tau[k];
-      if (lambda > 0 && friction_of(pair[k].law) > 0)
+      if (lambda > 0 && friction_of(pair[k].law) > 0) {
+        any = true;
         all = all && held[k] && -back * lambda < tau && tau < forward * lambda;
+      }
     }
-    return all;
+    return any && all;
   }
 
   RIVEN_INLINE void tally(const Outcome& out) {
@@ -231,6 +233,14 @@ struct NodeContact {
     return linked;
   }
 
+  /// Sum of m |v|.
+  RIVEN_INLINE double momenta() const {
+    double sum = 0;
+    for (int f = 0; f < Node::fields; ++f)
+      sum += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
+    return sum;
+  }
+
   RIVEN_INLINE HeldNormals normals(const NodeCracks& n, long index) const {
     return held_normals<cracks>(n, index, found.normals, found.third_normals);
   }
@@ -252,6 +262,14 @@ struct NodeContact {
     return true;
   }
 
+  /// The fields as they give way to each other, and what interfaces do.
+  RIVEN_INLINE void make_ready(const NodeCracks& n, long index) {
+    hold_prescribed();
+    for (int k = 0; k < node.pairs; ++k)
+      if (pair[k].law.law == ContactLaw::interface)
+        respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
+  }
+
   /// What keeps the faces of crack k from overlapping and from sliding, N s (friction_around.hpp).
   RIVEN_INLINE Vec2 asked(const NodeCracks& n, int k, Vec2 normal, const Node& as_one) const {
     Vec2 given;
@@ -259,19 +277,24 @@ struct NodeContact {
       if (const bool above = (f >> k & 1) == (n.side[k] == Side::above); node.mass[f] > 0 && !above)
         given += node.mass[f] / as_one.group_mass(f) * as_one.group_momentum(f) - node.momentum[f];
     const double lambda = dot(given, normal);
-    return lambda > 0 ? Vec2{lambda, dot(given, turned(normal))} : Vec2{};
+    return lambda > 0 && acts(given, momenta()) ? Vec2{lambda, dot(given, turned(normal))} : Vec2{};
   }
 
   /// The same of all its cracks, to their places in ContactSums::asked.
   RIVEN_INLINE void ask(const NodeCracks& n, long index, const Lattice& lattice, const ContactSettings* laws,
                         Vec2* to) {
-    const bool meets = find(n, index, lattice, laws);
-    hold_prescribed();
+    bool bears[cracks], any = false;
+    for (int k = 0; k < cracks; ++k) {
+      bears[k] = n.crack[k] >= 0 && friction_of(laws[n.crack[k]]) > 0;
+      any = any || bears[k];
+    }
+    const bool meets = any && find(n, index, lattice, laws);
+    if (meets)
+      make_ready(n, index);
     const Node as_one = meets ? linked(solve(node)) : node;
     for (int k = 0; k < cracks; ++k)
-      if (n.crack[k] >= 0)
-        to[entry_of(n, index, k, found.flagged)] =
-            friction_of(laws[n.crack[k]]) > 0 ? asked(n, k, normals(n, index).now(k), as_one) : Vec2{};
+      if (bears[k])
+        to[entry_of(n, index, k, found.flagged)] = meets ? asked(n, k, normals(n, index).now(k), as_one) : Vec2{};
   }
 
   /// Does any of them act?
@@ -280,13 +303,8 @@ struct NodeContact {
       return false;
     if (found.around.asked)
       bear_along_stairs(n, index, lattice);
-    double momenta = 0;
-    for (int f = 0; f < Node::fields; ++f)
-      momenta += node.mass[f] > 0 ? norm(node.momentum[f]) : 0;
-    hold_prescribed();
-    for (int k = 0; k < node.pairs; ++k)
-      if (pair[k].law.law == ContactLaw::interface)
-        respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
+    const double moved = momenta();
+    make_ready(n, index);
     const Outcome out = solve(node);
     tally(out);
     if (stage == ContactStage::after && found.pressed && (found.pressed[n.node] = pressing(out)) > 0) {
@@ -302,7 +320,7 @@ struct NodeContact {
       if (!out.changed[f])
         continue;
       found.prescribed.give(motion, notes, index, n, slot[f], out.impulse[f], out.velocity[f], dt);
-      acting = acting || acts(out.impulse[f], momenta);
+      acting = acting || acts(out.impulse[f], moved);
     }
     return acting;
   }

@@ -14,7 +14,8 @@
 // A node that sees several cracks knows lambda and tau of each from what makes one of the fields that press together:
 // with V their common velocity and m, v a field's own, n and t the normal and the tangent of the crack,
 //   lambda n + tau t = sum m (V - v)      over the fields below the crack.
-// That is well defined where four fields meet in a ring, in which an impulse that goes round changes nothing.
+// That is well defined where four fields meet in a ring, in which an impulse that goes round changes nothing. Faces
+// that still have a gap to close count there as shut.
 //
 // A node that sticks so bears no more than its stairs explain,
 //   tau / lambda within [min(0, s) - r, max(0, s) + r],   s = d.t / d.n,   r = 2 mu (1 + s^2)
@@ -59,7 +60,8 @@ RIVEN_INLINE Stairs stairs_of(const Meeting& m, const double* place, const long*
 /// more.
 RIVEN_INLINE FrictionBounds held_along_stairs(double friction, double around, Stairs s) {
   const double steep = std::max(-s.least, s.most), more = 2 * friction * (1 + steep * steep);
-  return {std::max(around, 1.) * (more - s.least), std::max(around, 1.) * (s.most + more)};
+  const double share = std::clamp(around, 1., 100.);  // a field of next to nothing is no matter
+  return {share * (more - s.least), share * (s.most + more)};
 }
 
 struct FrictionAround {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double beyond_edge = 2;  ///< cells by which a crack that leaves the solid is drawn on, if there is room
 constexpr double around_tip = 6;   ///< cells beyond the contour, at most, where a tip looks for solid ahead of it
-constexpr double slanted = 2;      ///< contours within which a way that the rule asks for leads out of what is left
+constexpr double slanted = 4;      ///< cells beyond the contour within which the rule's own way leads out of the solid
 constexpr double still = 20;       ///< segments' time without growth after which a tip has arrested
 constexpr double swings = 400;     ///< segments' time within which a tip at rest forgets what it has met
 constexpr double unseen = 4;  ///< cells that a wave may go before a tip at rest is looked at again: its least contour
@@ -133,9 +133,11 @@ class Growth {
   /// one and that leads out.
   std::optional<Vec2> last_way() const {
     const int contour = scene_.fracture.contour;
-    if (rule_.direction != GrowthDirection::hoop)
-      if (const Vec2 asked = growth_direction(rule_, tip_, around_.ahead); around_.leads_out(asked, slanted * contour))
+    if (rule_.direction != GrowthDirection::hoop) {
+      const Vec2 asked = growth_direction(rule_, tip_, around_.ahead);
+      if (around_.leads_out(asked, 0.5 * contour + slanted))
         return asked;
+    }
     return around_.way_out(contour);
   }
 
@@ -161,11 +163,14 @@ class Growth {
     return std::min(growth_load(rule_, tip_), growth_load(rule_, by_J));
   }
 
-  /// J/m^2, taken up by its growth. Where no contour is sound: as on its way until then.
+  /// J/m^2, taken up by its growth. Where no contour is sound: as on its way until then, or its toughness.
   double release_now() const {
     if (tip_.sound)
       return tip_.release;
-    return tip_.way.time > 0 ? mean_release(tip_.way) : std::min(tip_.release, tip_.J);
+    if (tip_.running && tip_.way.time > 0)
+      return mean_release(tip_.way);
+    const double load = growth_load(rule_, tip_);
+    return load > 0 ? tip_.release / (load * load) : 0;
   }
 
   void meet(Tip& other) {
@@ -264,19 +269,20 @@ class Growth {
 
   /// The tip has grown by a segment.
   void book(double segment) {
+    const double release = release_now();
     if (tip_.running) {
       tip_.speed += 0.25 * (segment / (now_ - tip_.grew) - tip_.speed);
       pass(tip_.way, segment, scene_.cell);
     } else {
       tip_.running = true;
-      start(tip_.way, tip_.release, now_);
+      start(tip_.way, release, now_);
       tip_.due = s_.clock.step + check_interval(particle_, limit_, s_.clock.dt);
       record(tip_, CrackEvent::Kind::start, around_.place, -1);
     }
     tip_.grew = now_;
     tip_.checks = 0;
     tip_.length += segment;
-    const double released = std::max(0., release_now()) * segment * thickness_;
+    const double released = std::max(0., release) * segment * thickness_;
     tip_.released += released;
     s_.ledger.energy.fracture += released;
   }

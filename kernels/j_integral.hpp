@@ -16,8 +16,9 @@
 // Around a tip that runs steadily both parts of P_K grow as 1/r^2 and cancel at each place. What the grid makes of them
 // a few cells about the tip does not cancel, as it smooths a and grad v unlike, and the tip runs by steps of a
 // particle. So of a tip that runs the integral is that of its core, a contour of its own within which P_K is left out:
-// sum a_p (q - q_core) P_K. In it v is that beyond the mean velocity around the tip, by which J does not change where
-// its sums are exact: v^2/2 of a solid that flies or spins would else make errors of what opens the crack.
+// sum a_p (q - q_core) P_K. There v is that beyond the mean velocity around the tip: where sums are exact J is the same
+// but for what the core leaves out, and v^2/2 of a solid that flies or spins makes no errors as large as what opens the
+// crack.
 #pragma once
 #include <limits>
 #include <optional>

@@ -10,6 +10,7 @@
 // their relative velocity what goes along with w, for no more impulse than they pressed with; along the crack, too, if
 // their law is to stick or friction has long held them (friction_around.hpp):
 //   impulse = m (u.d) d, u.d brought within [0, w.d]      along d = n, where faces part, and d = t, where they stick
+// (across, those that stick lose all of it, see below).
 // The slope of v is that between the nodes on either side of the crack,
 //   (n.grad) v = sum_axes n_axis (v(x + h e_axis) - v(x - h e_axis)) / 2h,
 // each the velocity of the field on that side of the crack. To keep faces that rub together altogether would not do:
@@ -17,15 +18,15 @@
 // stick stay together across altogether, for no more impulse than they pressed with: as faces that approach each other
 // are stopped whatever w is, those that part would be pumped apart. At rest under 10, 4 and 3 MPa the tip of a crack at
 // 70 degrees so made 0.8 % of the energy of a plate with FMPM(4) in 1000 us. Nor would it do to keep along the crack
-// what friction held but once: where faces slide noise lets some nodes stick for a step,
-// and what they lose there no friction has taken. At a node that sees several cracks faces that pressed in the last
-// update stay together across, whatever w is, and go on as one field if their law is to stick. Let go there, three shut
-// cracks through one point gained 1 to 6 % of the energy of their plate in 3000 steps at rest. With FLIP faces without
-// friction do stay together altogether across the crack, for no more impulse than they pressed with. Let go, they part
-// at some nodes behind the front of a sharp impact; forces then close them, and the impulse that stops them as they
-// meet does work on what was parting: 5 % of the energy where the crack lies between grid lines. So they do with FMPM
-// from the third order on, which keeps more of what the grid does not see: in 4000 steps at rest a bar with a shut
-// crack across gained 3.5 % of its energy with FMPM(4) and 7 % with FMPM(6).
+// what friction held but once: where faces slide noise lets some nodes stick for a step, and what they lose there no
+// friction has taken. At a node that sees several cracks faces that pressed in the last update stay together across,
+// whatever w is, and go on as one field where they stick. Let go there, three shut cracks through one point gained 1 to
+// 6 % of the energy of their plate in 3000 steps at rest. With FLIP faces without friction do stay together altogether
+// across the crack, for no more impulse than they pressed with. Let go, they part at some nodes behind the front of a
+// sharp impact; forces then close them, and the impulse that stops them as they meet does work on what was parting: 5 %
+// of the energy where the crack lies between grid lines. So they do with FMPM from the third order on, which keeps more
+// of what the grid does not see: in 4000 steps at rest a bar with a shut crack across gained 3.5 % of its energy with
+// FMPM(4) and 7 % with FMPM(6).
 #pragma once
 #include <algorithm>
 #include <cmath>

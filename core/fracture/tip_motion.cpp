@@ -11,7 +11,7 @@ constexpr double memory = 2;  ///< cells of its way that a tip goes by
 /// Of the speed of waves, beyond which what a tip meets is not read well; at that speed itself none would ever slow.
 constexpr double told_to = 0.9;
 
-constexpr double above = 2;          ///< what a tip is offered at most, over its release of the moment
+constexpr double most_offered = 2;   ///< what a tip is offered at most, over its release of the moment
 constexpr double beyond_swings = 4;  ///< of their root mean square: what a tip at rest has not met before
 
 /// What a tip takes its release for now.
@@ -75,7 +75,7 @@ double offered_at_rest(TipWay& way, double release, double memory, double now) {
   const bool news = off > beyond_swings * std::sqrt(way.swing);
   way.swing += -std::expm1((way.known - now) / memory) * (off * off - way.swing);
   recall(way, release, memory, now);
-  return news ? release : std::clamp(expected(way), 0., above * std::max(0., release));
+  return news ? release : std::clamp(expected(way), 0., most_offered * std::max(0., release));
 }
 
 }  // namespace riven

@@ -315,7 +315,7 @@ TEST(GrowCracks, BreakThroughInTheDirectionOfTheirRule) {
     scene.growth->heading = {2, 1};
     Driven run(scene, [&](Tip& t) {
       open(t);
-      t.sound = t.length < 15;  // two cells below the edge, to which it goes by 27 degrees
+      t.sound = t.length < 15.7;  // two cells below the edge, to which it goes by 27 degrees
     });
     run.to_the_end();
     EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::exit}));

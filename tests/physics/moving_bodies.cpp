@@ -40,7 +40,7 @@ Exit run_through(Vec2 velocity) {
   const Scene s = flying_plate(velocity);
   const ChosenSpace space;
   Simulation m(s, space);
-  while (m.state.tips[0].open || m.state.tips[1].open)
+  while (!m.finished() && (m.state.tips[0].open || m.state.tips[1].open))
     m.step();
   Exit found;
   for (const CrackEvent& e : m.state.events) {
@@ -54,7 +54,7 @@ Exit run_through(Vec2 velocity) {
 
 TEST(MovingBody, IsCutAsOneAtRest) {
   const Exit rest = run_through({});
-  ASSERT_GT(rest.time[0], 0);
+  ASSERT_GT(std::min(rest.time[0], rest.time[1]), 0);
   for (const Vec2 velocity : {Vec2{0, 50}, Vec2{100, 0}}) {
     const Exit flies = run_through(velocity);
     const std::string speed = fmt::format("plate that flies at ({}, {}) m/s: ", velocity.x, velocity.y);
