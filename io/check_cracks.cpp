@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/laws/contact.hpp"
 #include "core/scene/names.hpp"
 #include "core/state/make_tips.hpp"
 #include "io/checks.hpp"
@@ -47,7 +48,7 @@ void check_contact(const Scene& s, const std::string& key, const ContactSettings
 /// Contact that waits for faces to close needs faces that start apart.
 void check_waiting(const Scene& s, const CrackLine& c) {
   const ContactLaw law = c.contact.value_or(s.contact).law;
-  if (s.contact_rules.when == ContactWhen::closing && (law == ContactLaw::interface || law == ContactLaw::bonded))
+  if (s.contact_rules.when == ContactWhen::closing && holds_together(law))
     refuse(s, "crack " + c.name, "contact of faces that hold together from the start cannot wait for them to close",
            fmt::format("law = \"{}\", contact.when = \"auto\"", name_of(law)), "ignored, stick, frictionless, coulomb",
            "contact.when = \"always\"");
@@ -159,7 +160,7 @@ void check_tips(const Scene& s) {
 
 void check_traction(const Scene& s, const CrackLine& c, double spacing) {
   const ContactLaw law = c.contact.value_or(s.contact).law;
-  if (law == ContactLaw::bonded || law == ContactLaw::interface)
+  if (holds_together(law))
     refuse(s, "crack " + c.name, "tractions on faces that contact joins", fmt::format("law = \"{}\"", name_of(law)),
            "a law of contact that lets faces part", "law = \"frictionless\"");
   if (c.traction->kind != TractionKind::pressure && s.surface_update == SurfaceUpdate::flip)

@@ -233,7 +233,7 @@ struct NodeContact {
     return linked;
   }
 
-  /// Sum of m |v|.
+  /// Sum of m |v|, before make_ready().
   RIVEN_INLINE double momenta() const {
     double sum = 0;
     for (int f = 0; f < Node::fields; ++f)
@@ -270,14 +270,14 @@ struct NodeContact {
         respond(k, found.area[entry_of(n, index, pair[k].k, found.flagged)]);
   }
 
-  /// What keeps the faces of crack k from overlapping and from sliding, N s (friction_around.hpp).
-  RIVEN_INLINE Vec2 asked(const NodeCracks& n, int k, Vec2 normal, const Node& as_one) const {
+  /// What keeps the faces of crack k from overlapping and from sliding, N s (friction_around.hpp); `moved`: momenta().
+  RIVEN_INLINE Vec2 asked(const NodeCracks& n, int k, Vec2 normal, const Node& as_one, double moved) const {
     Vec2 given;
     for (int f = 0; f < Node::fields; ++f)
       if (const bool above = (f >> k & 1) == (n.side[k] == Side::above); node.mass[f] > 0 && !above)
         given += node.mass[f] / as_one.group_mass(f) * as_one.group_momentum(f) - node.momentum[f];
     const double lambda = dot(given, normal);
-    return lambda > 0 && acts(given, momenta()) ? Vec2{lambda, dot(given, turned(normal))} : Vec2{};
+    return lambda > 0 && acts(given, moved) ? Vec2{lambda, dot(given, turned(normal))} : Vec2{};
   }
 
   /// The same of all its cracks, to their places in ContactSums::asked.
@@ -289,12 +289,14 @@ struct NodeContact {
       any = any || bears[k];
     }
     const bool meets = any && find(n, index, lattice, laws);
+    const double moved = momenta();
     if (meets)
       make_ready(n, index);
     const Node as_one = meets ? linked(solve(node)) : node;
     for (int k = 0; k < cracks; ++k)
       if (bears[k])
-        to[entry_of(n, index, k, found.flagged)] = meets ? asked(n, k, normals(n, index).now(k), as_one) : Vec2{};
+        to[entry_of(n, index, k, found.flagged)] =
+            meets ? asked(n, k, normals(n, index).now(k), as_one, moved) : Vec2{};
   }
 
   /// Does any of them act?
