@@ -166,9 +166,10 @@ void check_traction(const Scene& s, const CrackLine& c, double spacing) {
   if (c.traction->kind != TractionKind::pressure && s.surface_update == SurfaceUpdate::flip)
     refuse(s, "crack " + c.name, "cohesive faces that move by flip gain energy in every step",
            "surface_update = \"flip\"", "surface_update = \"xpic\" or \"pic\" in [cracks]");
-  if (c.traction->region && !meets_body(s, c, spacing, c.traction->region))
+  const bool grows = c.grows && (c.growth || s.growth);  // perhaps into the region
+  if (c.traction->region && !grows && !meets_body(s, c, spacing, c.traction->region))
     refuse(s, "crack " + c.name, "no part of the crack in a body lies in the region of its traction",
-           text(bounds(*c.traction->region)), "a region that the crack passes through");
+           text(bounds(*c.traction->region)), "a region that the crack passes through, or grows into");
 }
 
 /// The springs between faces are as wide as the scene is thick.

@@ -264,7 +264,7 @@ class Growth {
   /// Gives the new point at the end what goes by its place.
   void lay_at_end() {
     lay_density_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
-    keep_to_region(scene_, tip_.crack, tip_.last, s_.cracks);
+    lay_traction_at_end(scene_, tip_.crack, tip_.last, s_.cracks);
   }
 
   /// The tip has grown by a segment.

@@ -16,25 +16,16 @@ double thickness_at(const Scene& scene, Vec2 x) {
   return b < 0 ? 0 : own > 0 ? own : scene.thickness;
 }
 
-/// The mean of f(x) from a to b.
-template <class F>
-double mean_between(Vec2 a, Vec2 b, const F& f) {
-  constexpr int samples = 32;
-  double sum = 0;
-  for (int i = 0; i < samples; ++i)
-    sum += f(a + ((i + 0.5) / samples) * (b - a));
-  return sum / samples;
-}
-
 /// Mean thickness that bears the tractions from a to b.
 double mean_bearing(const Scene& scene, const TractionSettings& settings, Vec2 a, Vec2 b) {
-  return mean_between(
-      a, b, [&](Vec2 x) { return !settings.region || contains(*settings.region, x) ? thickness_at(scene, x) : 0; });
-}
-
-/// Share of the way from a to b that lies in a region.
-double share_in(const Region& region, Vec2 a, Vec2 b) {
-  return mean_between(a, b, [&](Vec2 x) { return contains(region, x) ? 1. : 0.; });
+  constexpr int samples = 32;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 x = a + ((i + 0.5) / samples) * (b - a);
+    if (!settings.region || contains(*settings.region, x))
+      sum += thickness_at(scene, x);
+  }
+  return sum / samples;
 }
 
 const TractionLaw* law_at(const Cracks& cracks, int point) {
@@ -139,16 +130,16 @@ void lay_tractions(const Scene& scene, Cracks& cracks) {
   }
 }
 
-void keep_to_region(const Scene& scene, int crack, bool last, Cracks& cracks) {
+void lay_traction_at_end(const Scene& scene, int crack, bool last, Cracks& cracks) {
   const std::optional<TractionSettings>& settings = scene.cracks[static_cast<size_t>(crack)].traction;
   if (!settings || !settings->region)
     return;
   const int end = cracks.end_point(crack, last), next = cracks.next_to_end(crack, last);
   const Vec2 from = cracks.plane0[next], to = cracks.plane0[end], middle = 0.5 * (from + to);
-  Vec2 &inner = cracks.bearing[next], &outer = cracks.bearing[end];
-  (last ? inner.y : inner.x) *= share_in(*settings->region, from, middle);
-  const double bears = (last ? outer.x : outer.y) * share_in(*settings->region, middle, to);
-  outer = {bears, bears};
+  Vec2& inner = cracks.bearing[next];
+  (last ? inner.y : inner.x) = mean_bearing(scene, *settings, from, middle);
+  const double bears = mean_bearing(scene, *settings, middle, to);
+  cracks.bearing[end] = {bears, bears};
 }
 
 }  // namespace riven

@@ -57,8 +57,8 @@ double cohesive_energy(const Cracks&);
 /// Gives the cracks of the scene their laws, and their points what lies in a body there.
 void lay_tractions(const Scene&, Cracks&);
 
-/// Lets the new segment at an end of a crack that has grown bear what the end did only where it lies in the region that
-/// the scene gives to tractions, by first positions.
-void keep_to_region(const Scene&, int crack, bool last, Cracks&);
+/// Lets the new segment at an end of a crack that has grown bear its law where it lies, by first positions, in the
+/// region that the scene gives to that. Without a region it bears what the end did.
+void lay_traction_at_end(const Scene&, int crack, bool last, Cracks&);
 
 }  // namespace riven

@@ -103,6 +103,36 @@ TEST(GrowCracks, ArrestAndStartAgain) {
   EXPECT_EQ(run.events(), (std::vector{Kind::start, Kind::arrest, Kind::start}));
 }
 
+/// A notch without tractions grows into the region that has them: at its tip, or farther on. Nearest to where the
+/// region begins a point stands for faces on both sides.
+TEST(GrowCracks, BearTractionsWhereTheyGrowIntoTheirRegion) {
+  for (const double begins : {6., 7.6})
+    for (const bool last : {true, false}) {
+      std::vector<Vec2> points{{-1, 8.2}, {6, 8.2}};
+      if (!last)
+        std::reverse(points.begin(), points.end());
+      Scene s = plate({crack("edge", points)});
+      s.cracks[0].traction = TractionSettings{};
+      s.cracks[0].traction->pressure = {1e-3, [](double) { return 1.; }, ""};
+      s.cracks[0].traction->region = Rectangle{{begins, 0}, {20, 20}};
+      Driven run(s, open);
+      while (run.m.state.tips[0].length < 5)
+        run.steps(1);
+      const Cracks& c = run.m.state.cracks;
+      for (int k = 0; k < c.points(); ++k) {
+        const double x = c.plane0[k].x, particle = 0.5;
+        SCOPED_TRACE(testing::Message() << begins << " last " << last << " at " << x);
+        const Vec2 borne = c.bearing[k];
+        if (x < begins - 0.5 * particle) {
+          EXPECT_EQ(borne.x + borne.y, 0);
+        } else if (x > begins + 0.5 * particle) {
+          EXPECT_NEAR(borne.x, 0.5, 1e-12);  // m, thick
+          EXPECT_NEAR(borne.y, 0.5, 1e-12);
+        }
+      }
+    }
+}
+
 /// Neither an old J nor one without a sound contour lets a crack grow into the solid; but a running one goes through to
 /// an edge.
 TEST(GrowCracks, NeedAJThatCanBeTrusted) {
