@@ -250,11 +250,13 @@ class FaceIntegral {
   /// is what they bear behind; within a cell of the tip, where all faces are near each other, they touch if the next
   /// do.
   Meeting meet_shut(const Segment& s) {
-    const double half = half_length(), near = std::min(clear, half);
+    if (!half_)
+      half_ = half_length();
+    const double near = std::min(clear, *half_);
     if (!(norm(s.middle - task_.domain.tip) < near * h_))
       return meet(s, shut);
     if (!near_tip_)
-      near_tip_ = meet_behind_tip(near, half);
+      near_tip_ = meet_behind_tip(near, *half_);
     return near_tip_->holds && touch(clear_of_tip(s, std::min(1.0, near)), shut) ? *near_tip_ : Meeting{};
   }
 
@@ -277,7 +279,8 @@ class FaceIntegral {
     return m;
   }
 
-  /// Cells from the tip to the middle between it and the other one, or a bend, or to the other end.
+  /// Cells from the tip to the middle between it and the other one, or a bend, or to the other end; as far as it is
+  /// asked for.
   double half_length() const {
     const int other = cracks_.end_point(task_.crack, !task_.last), step = task_.last ? -1 : 1;
     int k = cracks_.end_point(task_.crack, task_.last);
@@ -285,9 +288,10 @@ class FaceIntegral {
       const Vec2 along = view_.plane[to] - view_.plane[k];
       return std::fabs(cross(along, task_.heading)) <= BranchCut::bent * norm(along);
     };
-    while (k != other && in_line(k + step))
+    const auto cells_to = [&](int point) { return norm(view_.plane[point] - task_.domain.tip) / h_; };
+    while (k != other && cells_to(k) < 2 * (clear + places) && in_line(k + step))
       k += step;
-    const double length = norm(view_.plane[k] - task_.domain.tip) / h_;
+    const double length = cells_to(k);
     return k != other || cracks_.is_open(task_.crack, !task_.last) ? 0.5 * length : length;
   }
 
@@ -387,6 +391,7 @@ class FaceIntegral {
   FaceFields<Shape, Law, Real> fields_;
   OwnFaces own_;
   KnownOnFaces known_;
+  std::optional<double> half_;       ///< half_length(), once asked for
   std::optional<Meeting> near_tip_;  ///< once asked for
   bool shut_ = false;                ///< some faces of the tip's own crack are pressed together
   bool loaded_ = false;              ///< some faces bear tractions of a law

@@ -28,11 +28,6 @@ constexpr double around_contour = 9;
 /// and 5 degrees. By 1.2 cells it is off by up to 10 % and 14 degrees, by 0.8 by up to 36 % and 17.
 constexpr double resolved = 1.5;
 
-void count(long& counter, Vec2& place, Vec2 here) {
-  if (counter++ == 0)
-    place = here;
-}
-
 template <class Real>
 class JSearch {
  public:
@@ -53,43 +48,15 @@ class JSearch {
     for (size_t k = 0; k < due.size(); ++k)
       due[k].forces = forces.act_at(k) ? &forces : nullptr;
     const TipContours<Real> contours(m_, rules_, tips_);
-    while (!due.empty()) {
-      std::vector<TipTask> tasks(due.size());
-      each("contours", due.size(), [&](size_t k) { tasks[k] = contours.place(due[k]); });
-      sum_around_tips(m_.space, m_.plan, s_, tasks);
-      each("J to K", due.size(), [&](size_t k) {
-        add_bridges(s_, m_.bridges, contours.places(), tasks[k]);
-        contours.review(due[k], tasks[k]);
-        if (again(due[k]))
-          return;
-        if (due[k].near)
-          settle_near(due[k], tasks[k]);
-        else
-          settle(due[k], tasks[k]);
-      });
-      for (size_t k = 0; k < due.size(); ++k)
-        note(due[k], tasks[k]);
-      std::erase_if(due, [](const DueTip& d) { return !again(d) && !d.to_near; });
-      for (DueTip& d : due)
-        if (std::exchange(d.to_near, false)) {
-          d.near = true;
-          std::fill_n(d.most, 4, 0.5 * near_contour * m_.scene.cell);
-        }
-    }
+    std::vector<FractureReport> reports(due.size());
+    sum_around_tips(m_.space, m_.plan, s_, places_of(due),
+                    {[&](size_t k) { return contours.place(due[k]); },
+                     [&](size_t k, TipTask& task) { return take(contours, due[k], task, reports[k]); }});
+    for (size_t k = 0; k < due.size(); ++k)
+      add(reports[k], position_of(s_.cracks, *due[k].tip));
   }
 
  private:
-  /// f(k) for k in [0, n), some tips at a time, as one alone is too little for a thread to be woken for.
-  template <class F>
-  void each(const char* label, size_t n, const F& f) const {
-    constexpr size_t block = 16;
-    exec::parallel_tasks(m_.space, label, static_cast<long>((n + block - 1) / block), [&](long b) {
-      const size_t first = static_cast<size_t>(b) * block, last = std::min(n, first + block);
-      for (size_t k = first; k < last; ++k)
-        f(k);
-    });
-  }
-
   std::vector<Vec2> places_of(const std::vector<DueTip>& due) const {
     std::vector<Vec2> list;
     list.reserve(due.size());
@@ -98,26 +65,50 @@ class JSearch {
     return list;
   }
 
-  /// Is its contour to be summed again, at another place?
-  static bool again(const DueTip& d) { return d.to_draw_in || d.to_leave_bends; }
+  /// Takes what was summed on a tip's contour. True: it is to be summed once more, on another one.
+  bool take(const TipContours<Real>& contours, DueTip& d, TipTask& task, FractureReport& report) const {
+    add_bridges(s_, m_.bridges, contours.places(), task);
+    contours.review(d, task);
+    const bool elsewhere = d.to_draw_in || d.to_leave_bends;
+    if (!elsewhere)
+      d.near ? settle_near(d, task) : settle(d, task);
+    note(d, task, report);
+    if (elsewhere || !std::exchange(d.to_near, false))
+      return elsewhere;
+    d.near = true;
+    std::fill_n(d.most, 4, 0.5 * near_contour * m_.scene.cell);
+    return true;
+  }
 
-  void note(const DueTip& d, const TipTask& task) {
+  void note(const DueTip& d, const TipTask& task, FractureReport& report) const {
     if (d.near || d.to_leave_bends)
       return;
-    if (d.bend_in_cell || d.pressed_bend)
-      count(m_.fracture.bent, m_.fracture.place[3], task.domain.tip);
-    if (d.in_cell)
-      count(m_.fracture.in_cell, m_.fracture.place[0], task.domain.tip);
-    if (d.to_draw_in) {
-      count(m_.fracture.drawn_in, m_.fracture.place[1], task.domain.tip);
+    report.bent += d.bend_in_cell || d.pressed_bend;
+    report.in_cell += d.in_cell;
+    report.drawn_in += d.to_draw_in;
+    if (d.to_draw_in)
       return;
-    }
-    if (!d.settled)
-      count(m_.fracture.unsound, m_.fracture.place[2], task.domain.tip);
-    if (is_cut_short(*d.tip, task))
-      count(m_.fracture.cut, m_.fracture.place[5], task.domain.tip);
-    ++m_.fracture.evaluations;
-    m_.fracture.crossed += task.sums.crossed;
+    report.unsound += !d.settled;
+    report.cut += is_cut_short(*d.tip, task);
+    ++report.evaluations;
+    report.crossed += task.sums.crossed;
+  }
+
+  /// Adds what a tip there came to.
+  void add(const FractureReport& of_tip, Vec2 tip) {
+    FractureReport& all = m_.fracture;
+    const auto take_over = [&](long FractureReport::*count, int place) {
+      if (all.*count == 0 && of_tip.*count > 0)
+        all.place[place] = tip;
+      all.*count += of_tip.*count;
+    };
+    take_over(&FractureReport::in_cell, 0);
+    take_over(&FractureReport::drawn_in, 1);
+    take_over(&FractureReport::unsound, 2);
+    take_over(&FractureReport::bent, 3);
+    take_over(&FractureReport::cut, 5);
+    all.evaluations += of_tip.evaluations;
+    all.crossed += of_tip.crossed;
   }
 
   /// Does another crack cross the tip's, or the tip's begin on it, so near that the grid does not resolve what lies

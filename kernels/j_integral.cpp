@@ -210,11 +210,11 @@ class TipSummer {
 
 /// Tips in the order in which their particles lie in memory. They lie far apart there: a thread takes some that follow
 /// each other, and asks for the data of the next one in time.
-std::vector<size_t> by_place(const Lattice& l, const std::vector<TipTask>& tasks) {
+std::vector<size_t> by_place(const Lattice& l, const std::vector<Vec2>& tips) {
   std::vector<std::pair<int, size_t>> places;
-  places.reserve(tasks.size());
-  for (const TipTask& task : tasks) {
-    const Vec2 X = (task.domain.tip - l.origin) * (1 / l.h);
+  places.reserve(tips.size());
+  for (const Vec2 tip : tips) {
+    const Vec2 X = (tip - l.origin) * (1 / l.h);
     places.emplace_back(l.sorted_cell(static_cast<int>(X.x), static_cast<int>(X.y)), places.size());
   }
   std::sort(places.begin(), places.end());
@@ -226,26 +226,36 @@ std::vector<size_t> by_place(const Lattice& l, const std::vector<TipTask>& tasks
 }
 
 template <class Shape, class Law, class Real>
-void sum_tasks(const exec::Space& space, const State<Real, 2>& s, std::vector<TipTask>& tasks) {
+void sum_tips(const exec::Space& space, const State<Real, 2>& s, const std::vector<Vec2>& tips,
+              const TipQuestions& ask) {
   if constexpr (Law::keeps_F) {
+    using Patch = typename TipSummer<Shape, Law, Real>::Patch;
     const TipSummer<Shape, Law, Real> summer(s);
     const SurfaceView view = surface_view(s.grid.lattice, s.cracks, s.fields);
     const SegmentsByCell segments(Shape{}, s.grid.lattice, s.cracks);
-    const std::vector<size_t> order = by_place(s.grid.lattice, tasks);
-    const size_t n = tasks.size(), threads = static_cast<size_t>(space.threads());
+    const std::vector<size_t> order = by_place(s.grid.lattice, tips);
+    const size_t n = tips.size(), threads = static_cast<size_t>(space.threads());
     const size_t block = std::min<size_t>(16, (n + threads - 1) / threads);  // a few tips keep all threads busy
     exec::parallel_tasks(space, "J integral", static_cast<long>((n + block - 1) / block), [&](long b) {
       const size_t first = static_cast<size_t>(b) * block, last = std::min(n, first + block);
-      typename TipSummer<Shape, Law, Real>::Patch now, next;
-      summer.list(tasks[order[first]], next);
+      TipTask task, next = ask.place(order[first]);
+      Patch patch, next_patch;
+      summer.list(next, next_patch);
       for (size_t k = first; k < last; ++k) {
-        std::swap(now, next);
-        if (k + 1 < last)
-          summer.list(tasks[order[k + 1]], next);
-        TipTask& task = tasks[order[k]];
-        task.sums = {};
-        summer.sum(task, now, next);
-        FaceIntegral<Shape, Law, Real>(s, view, segments, task).add();
+        std::swap(task, next);
+        std::swap(patch, next_patch);
+        if (k + 1 < last) {
+          next = ask.place(order[k + 1]);
+          summer.list(next, next_patch);
+        }
+        for (;;) {
+          summer.sum(task, patch, next_patch);
+          FaceIntegral<Shape, Law, Real>(s, view, segments, task).add();
+          if (!ask.take(order[k], task))
+            break;
+          task = ask.place(order[k]);
+          summer.list(task, patch);
+        }
       }
     });
   } else {
@@ -256,16 +266,18 @@ void sum_tasks(const exec::Space& space, const State<Real, 2>& s, std::vector<Ti
 }  // namespace
 
 template <class Real>
-void sum_around_tips(const exec::Space& space, const Plan& plan, const State<Real, 2>& s, std::vector<TipTask>& tasks) {
+void sum_around_tips(const exec::Space& space, const Plan& plan, const State<Real, 2>& s, const std::vector<Vec2>& tips,
+                     const TipQuestions& ask) {
   with_shape(plan.shape, [&](auto shape) {
     with_law<Real>(plan.law, [&](auto law) {
-      sum_tasks<typename decltype(shape)::type, typename decltype(law)::type>(space, s, tasks);
+      sum_tips<typename decltype(shape)::type, typename decltype(law)::type>(space, s, tips, ask);
     });
   });
 }
 
-#define RIVEN_J_INTEGRAL(Real) \
-  template void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, std::vector<TipTask>&);
+#define RIVEN_J_INTEGRAL(Real)                                                                                    \
+  template void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, const std::vector<Vec2>&, \
+                                const TipQuestions&);
 RIVEN_EACH_REAL(RIVEN_J_INTEGRAL)
 #undef RIVEN_J_INTEGRAL
 

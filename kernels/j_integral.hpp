@@ -20,6 +20,7 @@
 // but for what the core leaves out, and v^2/2 of a solid that flies or spins makes no errors as large as what opens the
 // crack.
 #pragma once
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -97,8 +98,15 @@ struct TipTask {
   }
 };
 
-/// Fills the sums of all tasks. Grid::q holds [vx vy ax ay].
+/// What is asked about tips, by number, on any thread.
+struct TipQuestions {
+  std::function<TipTask(size_t tip)> place;        ///< what to sum
+  std::function<bool(size_t tip, TipTask&)> take;  ///< takes the sums; true: `place` says what to sum once more
+};
+
+/// Sums around tips at these places, until all are done. Grid::q holds [vx vy ax ay].
 template <class Real>
-void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, std::vector<TipTask>& tasks);
+void sum_around_tips(const exec::Space&, const Plan&, const State<Real, 2>&, const std::vector<Vec2>& tips,
+                     const TipQuestions&);
 
 }  // namespace riven

@@ -13,8 +13,8 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/field_slots.hpp"
 #include "kernels/fracture_step.hpp"
-#include "kernels/j_integral.hpp"
 #include "tests/physics/scenes.hpp"
+#include "tests/physics/sum_tasks.hpp"
 #include "tests/spaces.hpp"
 
 namespace riven {
@@ -98,7 +98,7 @@ TipSums sums_at(Simulation& m, Vec2 tip, Vec2 heading, double contour, bool face
   task.interaction = true;
   task.passes = true;
   std::vector<TipTask> tasks{task};
-  sum_around_tips(m.space, m.plan, m.state, tasks);
+  test::sum_tasks(m.space, m, tasks);
   return tasks[0].sums;
 }
 
@@ -458,7 +458,7 @@ TEST(JOfKnownFields, InertiaIsThatOfEveryParticleInTheContour) {
           task.interaction = true;
           std::vector<TipTask> tasks{task, task};
           tasks[1].inertia = true;
-          sum_around_tips(space, m.plan, m.state, tasks);
+          test::sum_tasks(space, m, tasks);
           const TipSums &without = tasks[0].sums, &with = tasks[1].sums;
           const InertiaByHand by_hand =
               with_shape(shape, [&](auto type) { return inertia_by_hand<typename decltype(type)::type>(m, tasks[1]); });

@@ -3,8 +3,8 @@
 
 #include "core/fracture/place_domain.hpp"
 #include "core/state/tractions.hpp"
-#include "kernels/j_integral.hpp"
 #include "tests/physics/scene_gates.hpp"
+#include "tests/physics/sum_tasks.hpp"
 #include "tests/spaces.hpp"
 
 namespace riven {
@@ -106,7 +106,7 @@ double far_contour(Simulation& m) {
   task.solid = &solid;
   task.inertia = true;
   std::vector<TipTask> tasks{task};
-  sum_around_tips(m.space, m.plan, m.state, tasks);
+  test::sum_tasks(m.space, m, tasks);
   return tasks[0].sums.J.x + tasks[0].sums.area.x;
 }
 
