@@ -104,8 +104,7 @@ class FaceIntegral {
     else if (loaded)
       own_.add_tractions(s.k, s.q);
     loaded_ = loaded_ || loaded;
-    // tractions of laws are counted already, however little the faces have opened
-    const Meeting meeting = loaded ? Meeting{} : off_line ? meet(s, touching) : meet_shut(s);
+    const Meeting meeting = off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
     see(!comes_back(s) && (!off_line || (task_.cut && !meeting.holds)));
     task_.sums.steep = task_.sums.steep || off_line;
@@ -147,7 +146,7 @@ class FaceIntegral {
       return;
     double far = 0;
     for (Segment at = *first; !shut_ && far < pressed_within * h_ && behind(at); far += at.length)
-      shut_ = !own_.bears(at.k) && meet(at, touching).holds;
+      shut_ = meet(at, touching).holds;
     task_.sums.pressed = shut_;
     for (const Segment& s : segments)
       if (is_bent(s) && (shut_ || is_sharp(s)))
@@ -217,7 +216,7 @@ class FaceIntegral {
   struct Meeting {
     bool holds = false;
     FaceValues face[2];
-    Vec2 traction;  ///< on the upper one
+    Vec2 traction;  ///< of contact, on the upper one
   };
 
   /// Are faces closer than some cells, may they press on each other, and have they acted on each other?
@@ -227,7 +226,8 @@ class FaceIntegral {
     return cracks_.contact[s.crack].law != ContactLaw::ignored && dot(gap, s.normal) < most && acted(s.middle);
   }
 
-  /// Meets where faces touch and their law bears what the stresses next to them ask for.
+  /// Meets where faces touch and their law of contact bears what the stresses next to them ask for beyond what a law
+  /// of tractions puts on them.
   Meeting meet(const Segment& s, double cells) {
     Meeting m;
     if (!touch(s, cells))
@@ -240,8 +240,10 @@ class FaceIntegral {
       const double *stress = face.data() + face_stress, x = s.normal.x, y = s.normal.y;
       traction -= 0.5 * Vec2{stress[0] * x + stress[2] * y, stress[2] * x + stress[1] * y};
     }
-    m.traction = contact_traction(cracks_.contact[s.crack], traction, s.normal);
-    m.holds = dot(m.traction, m.traction) > 0;
+    const Vec2 law = borne_by(s.k), contact = contact_traction(cracks_.contact[s.crack], traction - law, s.normal);
+    m.holds = norm(contact) > told * norm(law);
+    if (m.holds)
+      m.traction = contact;
     return m;
   }
 
@@ -377,6 +379,7 @@ class FaceIntegral {
   static constexpr double disturbed = 1.6;  ///< cells from the tip within which faces have stresses of its field, and
   static constexpr double clear = 3;        ///< those within which what they are is not known well enough for friction
   static constexpr int places = 4;          ///< at which it is looked for instead
+  static constexpr double told = 0.1;       ///< of the tractions of a law, what stresses beside them tell of contact
   static constexpr double pressed_within = 4;  ///< cells behind a bend in which pressed faces are looked for
   /// Opening in cells below which faces may press on each other; below the second, those in line with their tip, which
   /// have opened by little at any tip while nodes next to it may still touch. Where faces slide their normals are not

@@ -114,6 +114,27 @@ TEST(ShutCrack, HoldsWhatItsFrictionBearsWhereverItsTipLies) {
   }
 }
 
+/// A pressure P between the faces bears a part of what presses on them, and friction is that of the rest:
+/// K_II = (p/2 - mu (p/2 - P)) sqrt(pi a). A pressure of 0 changes nothing.
+TEST(ShutCrack, BearsFrictionBesideAPressure) {
+  constexpr double friction = 0.6, a = 8 * mm;
+  const auto K_II = [&](double mu, double P) {
+    Scene s = pressed_plate(mu, a);
+    s.cracks[0].traction = TractionSettings{};
+    s.cracks[0].traction->pressure = {P, rise, ""};
+    Plate plate(s);
+    plate.hold();
+    return std::abs(mean_tip(plate, 8).M_II);
+  };
+  const double free = K_II(0, 0);
+  for (const double P : {0., 0.2 * p}) {
+    const double share = 1 - friction * (1 - 2 * P / p), K = K_II(friction, P) / free / share;
+    report(fmt::format("shut crack, friction 0.6, pressure {} p: K_II over what friction leaves", P / p), K,
+           "1 +- 0.06");
+    EXPECT_NEAR(K, 1, 0.06) << P;
+  }
+}
+
 /// Waves open and shut a crack, whose faces bounce and seldom all touch at once. K_I is never less than 0 by that;
 /// where faces may overlap it is.
 TEST(ShutCrack, HasNoNegativeKIInWaves) {
