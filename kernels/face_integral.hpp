@@ -107,7 +107,7 @@ class FaceIntegral {
     const Meeting meeting = off_line ? meet(s, touching) : meet_shut(s);
     shut_ = shut_ || meeting.holds;
     see(!comes_back(s) && (!off_line || (task_.cut && !meeting.holds)));
-    task_.sums.steep = task_.sums.steep || off_line;
+    task_.sums.steep = task_.sums.steep || (off_line && was_bent(s));
     if (meeting.holds && !off_line)
       own_.add_contact(s.k, s.q, meeting.traction);
     if (!(s.turn < straight))
@@ -157,6 +157,12 @@ class FaceIntegral {
   bool comes_back(const Segment& s) const { return task_.last ? s.k < task_.way.until : s.k >= task_.way.until; }
 
   bool is_bent(const Segment& s) const { return s.crack == task_.crack && s.turn > BranchCut::bent; }
+
+  /// Was it before strains turned it? Those of a soft solid do, behind a blunt tip, and leave no corner.
+  bool was_bent(const Segment& s) const {
+    const Vec2 laid = task_.turn_with_tip(cracks_.plane0[s.k + 1] - cracks_.plane0[s.k]);
+    return std::fabs(cross(laid, task_.heading)) > BranchCut::bent * norm(laid);
+  }
 
   /// Does the crack turn sharply between this segment and the next one towards the tip, where it was drawn? What has
   /// grown is next to the tip, and J of what drives it would be that of the least contour.

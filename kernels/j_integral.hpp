@@ -91,6 +91,8 @@ struct TipTask {
       sign[k] = cut ? cut->sign({dot(r, heading), cross(heading, r)}) : 1;
     }
   }
+  /// A vector of the first configuration that has turned by R with the tip.
+  Vec2 turn_with_tip(Vec2 a) const { return {turn.x * a.x - turn.y * a.y, turn.y * a.x + turn.x * a.y}; }
   /// Displacement gradient F - R of what has turned by R with the tip.
   template <class Real>
   Mat2<double> gradient(const Mat2<Real>& F) const {

@@ -121,8 +121,7 @@ class KnownOnFaces {
 
   /// Sine of the angle by which a face has turned more than the tip.
   double rotation(int k, Side side) const {
-    const Vec2 first = cracks_.plane0[k + 1] - cracks_.plane0[k], R = task_.turn;
-    const Vec2 laid{R.x * first.x - R.y * first.y, R.y * first.x + R.x * first.y};
+    const Vec2 laid = task_.turn_with_tip(cracks_.plane0[k + 1] - cracks_.plane0[k]);
     const exec::Array<Vec2>& face = side == Side::above ? cracks_.upper : cracks_.lower;
     return cross(laid, face[k + 1] - face[k]) / dot(laid, laid);
   }

@@ -30,12 +30,13 @@ void each_particle_near(const State<Real, 2>& s, Vec2 x, double radius, const F&
     }
 }
 
-/// Whether there is solid ahead of x: some particle in the half disk of two particles' size on the side of `way`. In a
-/// solid there is always one, even where it is stretched by 40 %.
+/// Whether there is solid ahead of x: some particle in the half disk of two particles' size, and at least a cell, on
+/// the side of `way`. In a solid there is always one, even where it is stretched by 40 %; within a cell particles hold
+/// together whatever their size, and next to a tip in a soft solid small ones are drawn apart much farther.
 template <class Real>
 bool solid_ahead(const State<Real, 2>& s, Vec2 x, Vec2 way, double particle) {
   bool found = false;
-  each_particle_near(s, x, 2 * particle, [&](int k) {
+  each_particle_near(s, x, std::max(2 * particle, s.grid.lattice.h), [&](int k) {
     found |= dot(Vec2{s.particles.x[0][k], s.particles.x[1][k]} - x, way) > 1e-6 * particle;
   });
   return found;
