@@ -207,16 +207,21 @@ void doubt_speed(const Scene& s, const std::optional<GrowthRule>& rule, const st
          "leave speed_limit out"});
 }
 
-/// FLIP wears no waves down: what a crack releases stays in the body.
+/// FLIP wears no waves down: what a crack releases stays in the body, and so does what particles and cohesive faces do
+/// to each other between nodes.
 void doubt_noise(const Scene& s, std::vector<Doubt>& list) {
-  for (size_t c = 0; s.transfer == Transfer::flip && c < s.cracks.size(); ++c)
-    if (growth_rule(s, static_cast<int>(c))) {
-      list.push_back({place(s, "crack " + s.cracks[c].name),
-                      "with FLIP the energy that a crack releases as it grows stays in the body as noise, which drives "
-                      "tips on",
-                      "try solver.transfer = \"fmpm\" with solver.order = 2"});
-      return;
-    }
+  for (size_t c = 0; s.transfer == Transfer::flip && c < s.cracks.size(); ++c) {
+    const CrackLine& crack = s.cracks[c];
+    const bool grows = growth_rule(s, static_cast<int>(c)) != nullptr;
+    if (!grows && !(crack.traction && crack.traction->kind != TractionKind::pressure))
+      continue;
+    list.push_back({place(s, "crack " + crack.name),
+                    grows ? "with FLIP the energy that a crack releases as it grows stays in the body as noise, which "
+                            "drives tips on"
+                          : "with FLIP a stiff cohesive law may feed the noise between its faces until the run stops",
+                    "try solver.transfer = \"fmpm\" with solver.order = 2"});
+    return;
+  }
 }
 
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {

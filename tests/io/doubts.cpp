@@ -83,6 +83,20 @@ TEST(Doubts, NameGrowthOnFlip) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameCohesiveLawsOnFlip) {
+  Scene s = sound_scene();
+  TractionSettings& t = s.cracks[0].traction.emplace();
+  t.strength = t.shear_strength = 50e6;
+  t.toughness = t.shear_toughness = 1e3;
+  t.kind = TractionKind::triangular;
+  expect_doubt(s, "crack edge", "noise between its faces");
+  s.transfer = Transfer::fmpm;
+  EXPECT_TRUE(doubts(s).empty());
+  s.transfer = Transfer::flip;
+  t.kind = TractionKind::pressure;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameTipsNextToTheEndOfTheSolid) {
   Scene s = sound_scene();
   Vec2& tip = s.cracks[0].points.back();
@@ -341,6 +355,7 @@ TEST(Doubts, NameCohesiveZonesTooShortForTheCells) {
     Scene s = sound_scene();
     s.cracks[0].points.back().x = 41e-3;
     s.fracture.asked = false;
+    s.transfer = Transfer::fmpm;
     TractionSettings& t = s.cracks[0].traction.emplace();
     t.kind = TractionKind::triangular;
     t.strength = t.shear_strength = strength;
