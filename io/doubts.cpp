@@ -224,6 +224,15 @@ void doubt_noise(const Scene& s, std::vector<Doubt>& list) {
   }
 }
 
+/// With uGIMP, at any time step; linear functions and B-splines do not.
+void doubt_update(const Scene& s, std::vector<Doubt>& list) {
+  if (s.stress_update == StressUpdate::usl && s.transfer == Transfer::fmpm && s.order > 2 &&
+      s.shape == ShapeFunction::ugimp)
+    list.push_back({place(s, "solver.stress_update"),
+                    "with usl FMPM of an order above 2 may gain energy at free corners",
+                    "try stress_update = \"usavg\", or an order of 2"});
+}
+
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
   doubt_noise(s, list);
   doubt_speed(s, s.growth, "growth.speed_limit", list);
@@ -252,6 +261,7 @@ void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
 
 std::vector<Doubt> doubts(const Scene& s) {
   std::vector<Doubt> list;
+  doubt_update(s, list);
   doubt_materials(s, list);
   doubt_toughness(s, list);
   doubt_solids(s, list);

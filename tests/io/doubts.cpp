@@ -83,6 +83,18 @@ TEST(Doubts, NameGrowthOnFlip) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameHighOrdersWithStressLast) {
+  Scene s = sound_scene();
+  s.transfer = Transfer::fmpm;
+  s.stress_update = StressUpdate::usl;
+  s.order = 2;
+  EXPECT_TRUE(doubts(s).empty());
+  s.order = 4;
+  expect_doubt(s, "solver.stress_update", "free corners");
+  s.shape = ShapeFunction::bspline;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameCohesiveLawsOnFlip) {
   Scene s = sound_scene();
   TractionSettings& t = s.cracks[0].traction.emplace();

@@ -67,13 +67,17 @@ TEST(SoftStrip, HasTheJOfItsStretch) {
   }
 }
 
-/// With small particles, too, of which there is none within two of their first sizes ahead of the tip.
+/// With small particles, too, of which there is none within two of their first sizes ahead of the tip. (Beyond a
+/// release of 0.35 E times a cell its modes no longer say which way is straight on.)
 TEST(SoftStrip, IsTornToItsEnd) {
-  for (const double toughness : {8e3, 10e3}) {
-    const Scene s = soft_strip(1.15, 20 * mm, toughness);
+  using enum GrowthDirection;
+  for (const auto& [toughness, direction] :
+       {std::pair{8e3, hoop}, std::pair{10e3, hoop}, std::pair{12e3, self_similar}}) {
+    Scene s = soft_strip(1.15, 20 * mm, toughness);
+    s.growth->direction = direction;
     const ChosenSpace space;
     Simulation m(s, space);
-    while (m.state.clock.time < 4 * ramp && m.state.tips[0].open)
+    while (m.state.clock.time < 3 * ramp && m.state.tips[0].open)
       m.step();
     ASSERT_FALSE(m.state.events.empty());
     const CrackEvent& last = m.state.events.back();
