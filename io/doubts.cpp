@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <variant>
 
 #include "core/fracture/growth.hpp"
@@ -82,10 +83,24 @@ void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
                     "look at the unit of velocity"});
 }
 
+/// Particles that lie askew to the grid strain a loaded body a little more wherever it turns to: 2 x 2 in a cell let a
+/// crack that is held open open by 13 % more in a quarter turn, 3 x 3 by 2 %.
+void doubt_spin(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  constexpr double far = 0.7;  // rad
+  const double turn = std::fabs(b.spin) * s.end_time;
+  if (!s.cracks.empty() && b.particles_per_cell < 3 && turn > far)
+    list.push_back(
+        {place(s, "body " + b.name),
+         fmt::format("it turns by {:.0f} degrees, and cracks under load open by a tenth more in a quarter turn",
+                     turn * 180 / std::numbers::pi),
+         "try particles_per_cell = 3"});
+}
+
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
   for (const Body& b : s.bodies) {
     doubt_edges(s, b, list);
     doubt_velocity(s, b, list);
+    doubt_spin(s, b, list);
   }
   for (const Body& b : s.bodies)
     for (const Region& hole : b.holes) {

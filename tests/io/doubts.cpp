@@ -71,6 +71,16 @@ TEST(Doubts, NameBodiesFasterThanTheirWaves) {
   expect_doubt(s, "body plate", "faster than its waves");
 }
 
+TEST(Doubts, NameCracksThatTurnFarOnFewParticles) {
+  Scene s = sound_scene();
+  s.bodies[0].spin = 0.6 / s.end_time;
+  EXPECT_TRUE(doubts(s).empty());
+  s.bodies[0].spin = -0.8 / s.end_time;
+  expect_doubt(s, "body plate", "46 degrees");
+  s.bodies[0].particles_per_cell = 3;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameGrowthOnFlip) {
   Scene s = sound_scene();
   s.growth = GrowthRule{};
