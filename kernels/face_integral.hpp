@@ -51,8 +51,9 @@ class FaceIntegral {
         const int i = e.cell - j * view_.lattice.nx;
         list(e, j >= cells.lower[1] && j <= cells.upper[1] && i >= cells.lower[0] && i <= cells.upper[0], lists);
       });
-    for (const SegmentsByCell::Entry& e : lists.own)
-      own_.find_cut(e.segment, e.cell);
+    if (own_.any_others())
+      for (const SegmentsByCell::Entry& e : lists.own)
+        own_.find_cut(e.segment, e.cell);
     for (const Segment& s : lists.segments)
       if (is_bent(s) || s.crack != task_.crack)
         fields_.ask_for_energies();

@@ -83,6 +83,9 @@ class OwnFaces {
       add_known_opening(k, q, traction);
   }
 
+  /// Are there any of those?
+  bool any_others() const { return !others_.empty(); }
+
   /// What a traction on a segment does as its faces go on from where they are at its first point to where they are at
   /// its second, per thickness.
   double work(int k, Vec2 traction) const { return dot(traction, opening_change(k)); }

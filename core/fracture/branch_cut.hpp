@@ -21,18 +21,18 @@ class BranchCut {
   /// straight away from the tip.
   static std::optional<BranchCut> along(const Cracks& cracks, const Tip& tip, Vec2 heading, const WayFromTip& way) {
     const Vec2 x = cracks.plane[cracks.end_point(tip.crack, tip.last)];
-    BranchCut cut;
     bool bends = false;
-    Vec2 before = x, last;
+    Vec2 last = x;
     way.each(cracks, tip, [&](int k) {
-      const Vec2 at = cracks.plane[k], segment = before - at;
+      const Vec2 at = cracks.plane[k], segment = last - at;
       const double off = cross(segment, heading);
       bends = bends || off * off > curved * curved * dot(segment, segment);
-      cut.add(at - x, heading);
-      before = last = at;
+      last = at;
     });
     if (!bends)
       return std::nullopt;
+    BranchCut cut;
+    way.each(cracks, tip, [&](int k) { cut.add(cracks.plane[k] - x, heading); });
     cut.add(2 * (last - x), heading);
     return cut;
   }
