@@ -158,7 +158,8 @@ void check_tips(const Scene& s) {
     refuse(s, "growth", "cracks are to grow but none that may has a tip in a body", count, wanted, "no [growth]");
 }
 
-void check_traction(const Scene& s, const CrackLine& c, double spacing) {
+void check_traction(const Scene& s, int crack, double spacing) {
+  const CrackLine& c = s.cracks[static_cast<size_t>(crack)];
   const ContactLaw law = c.contact.value_or(s.contact).law;
   if (holds_together(law))
     refuse(s, "crack " + c.name, "tractions on faces that contact joins", fmt::format("law = \"{}\"", name_of(law)),
@@ -166,7 +167,7 @@ void check_traction(const Scene& s, const CrackLine& c, double spacing) {
   if (c.traction->kind != TractionKind::pressure && s.surface_update == SurfaceUpdate::flip)
     refuse(s, "crack " + c.name, "cohesive faces that move by flip gain energy in every step",
            "surface_update = \"flip\"", "surface_update = \"xpic\" or \"pic\" in [cracks]");
-  const bool grows = c.grows && (c.growth || s.growth);  // perhaps into the region
+  const bool grows = growth_rule(s, crack) != nullptr;  // perhaps into the region
   if (c.traction->region && !grows && !meets_body(s, c, spacing, c.traction->region))
     refuse(s, "crack " + c.name, "no part of the crack in a body lies in the region of its traction",
            text(bounds(*c.traction->region)), "a region that the crack passes through, or grows into");
@@ -226,7 +227,7 @@ void check_cracks(const Scene& s) {
       refuse(s, "crack " + c.name, "no part of the crack lies in a body",
              text(c.points.front()) + " to " + text(c.points.back()), "a crack through a body, or along its border");
     if (c.traction)
-      check_traction(s, c, spacing);
+      check_traction(s, static_cast<int>(&c - s.cracks.data()), spacing);
   }
   check_doubles(s);
   check_tips(s);

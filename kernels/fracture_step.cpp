@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/exec/parallel.hpp"
 #include "core/fracture/growth.hpp"
 #include "core/fracture/opening.hpp"
 #include "core/laws/contact.hpp"
