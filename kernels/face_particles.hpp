@@ -153,7 +153,8 @@ class FaceParticles {
   void take_values(const Source& from, const TipTask& task, int first, int count) {
     const ParticleReads<Real>& p = from.reads;
     const double inv = 1 / from.s.grid.lattice.h, half = 0.5 * task.kinetic();
-    const Vec2 drift = task.drift;
+    const MeanMotion drift = task.drift;
+    const Vec2 tip = task.domain.tip;
     double specific_area[lanes], inv_first[lanes];
     for (int k = 0; k < lanes; ++k) {
       const int body = from.s.particles.body[first + std::min(k, count - 1)];
@@ -163,8 +164,9 @@ class FaceParticles {
 #pragma omp simd
     for (int k = 0; k < lanes; ++k) {
       const LawState<Real> state = law_state<Law>(p, first + k);
-      const double density = k < count ? inv_first[k] / state.J : 0, vx = p.vx[first + k] - drift.x,
-                   vy = p.vy[first + k] - drift.y;
+      const Vec2 mean = drift.at({p.x[first + k] - tip.x, p.y[first + k] - tip.y});
+      const double density = k < count ? inv_first[k] / state.J : 0, vx = p.vx[first + k] - mean.x,
+                   vy = p.vy[first + k] - mean.y;
       area_[k] = k < count ? p.mass[first + k] * specific_area[k] * state.J * inv * inv : 0;
       values_[face_stress][k] = k < count ? density * state.xx : 0;
       values_[face_stress + 1][k] = k < count ? density * state.yy : 0;

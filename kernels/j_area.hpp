@@ -32,12 +32,13 @@ struct AreaSums {
                  *D = s.particles.F[3].data();
     const Real *VX = s.particles.v[0].data(), *VY = s.particles.v[1].data();
     const double kinetic = task.kinetic();
-    const Vec2 drift = task.drift;
+    const MeanMotion drift = task.drift;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const Mat2<double> F{A[i], B[i], C[i], D[i]}, H = task.gradient(F);
-      const double vx = kinetic * (VX[i] - drift.x), vy = kinetic * (VY[i] - drift.y), vgx = vx * gxx[k] + vy * gyx[k],
-                   vgy = vx * gxy[k] + vy * gyy[k];
+      const Vec2 mean = drift.at({rx[k], ry[k]});
+      const double vx = kinetic * (VX[i] - mean.x), vy = kinetic * (VY[i] - mean.y),
+                   vgx = vx * gxx[k] + vy * (gyx[k] - drift.spin), vgy = vx * (gxy[k] + drift.spin) + vy * gyy[k];
       sum_x[k] += moved[k] * (H.xx * ax[k] + H.yx * ay[k] - vgx * F.xx - vgy * F.yx);
       sum_y[k] += moved[k] * (H.xy * ax[k] + H.yy * ay[k] - vgx * F.xy - vgy * F.yy);
       sum_x[k] -= mass[k] * (H.xx * bx[k] + H.yx * by[k]);

@@ -105,7 +105,7 @@ struct Band {
     const double *A = p.F[0].data(), *B = p.F[1].data(), *C = p.F[2].data(), *D = p.F[3].data();
     const JDomain d = task.domain;
     const double half = 0.5 * task.kinetic();
-    const Vec2 drift = task.drift;
+    const MeanMotion drift = task.drift;
     exec::for_lanes(lanes, [&](int k) RIVEN_LANE {
       const int i = at[k];
       const auto& solid = solid_of(k);
@@ -118,7 +118,8 @@ struct Band {
       state.xx = SX[i];
       state.yy = SY[i];
       state.xy = SXY[i];
-      const double m = (k < count ? 1.0 : 0.0) * M[i], v0 = VX[i] - drift.x, v1 = VY[i] - drift.y;
+      const Vec2 mean = drift.at(r);
+      const double m = (k < count ? 1.0 : 0.0) * M[i], v0 = VX[i] - mean.x, v1 = VY[i] - mean.y;
       const double first = m * solid.specific_area, area = first * state.J;
       filled[right][k] += q.edge_x == right ? area * q.slope_x : 0;
       filled[left][k] += q.edge_x == left ? area * q.slope_x : 0;

@@ -71,7 +71,7 @@ class TipSummer {
   void sum(TipTask& task, const Patch& patch, Patch& next) const {
     Sums sums(task, next);
     if (task.kinetic() > 0)
-      task.drift = mean_velocity(task.domain, patch);
+      task.drift = mean_motion(task.domain, patch);
     with_flag(task.sums_area(), [&](auto area) {
       for (const auto [first, last] : patch.stretches)
         look<decltype(area)::value>(sums, first, last);
@@ -113,18 +113,29 @@ class TipSummer {
     Sums(TipTask& to_fill, Patch& to_ask_for) : task(to_fill), next(to_ask_for) {}
   };
 
-  /// Of the particles on which q falls.
-  Vec2 mean_velocity(const JDomain& d, const Patch& patch) const {
+  /// Of the particles on which q falls: the rigid motion with their momentum and angular momentum.
+  MeanMotion mean_motion(const JDomain& d, const Patch& patch) const {
     const Particles<Real, 2>& p = s_.particles;
-    double mass = 0;
-    Vec2 momentum;
+    double mass = 0, inertia = 0, turning = 0;  // the latter two about the tip
+    Vec2 moment, momentum;
     for (const auto [first, last] : patch.stretches)
       for (int k = first; k < last; ++k)
-        if (const double q = d.weight({p.x[0][k] - d.tip.x, p.x[1][k] - d.tip.y}); q > 0 && q < 1) {
-          mass += p.mass[k];
-          momentum += double{p.mass[k]} * Vec2{p.v[0][k], p.v[1][k]};
+        if (const Vec2 r{p.x[0][k] - d.tip.x, p.x[1][k] - d.tip.y}; d.weight(r) > 0 && d.weight(r) < 1) {
+          const double m = p.mass[k];
+          const Vec2 v{p.v[0][k], p.v[1][k]};
+          mass += m;
+          moment += m * r;
+          momentum += m * v;
+          inertia += m * dot(r, r);
+          turning += m * cross(r, v);
         }
-    return mass > 0 ? momentum * (1 / mass) : Vec2{};
+    if (!(mass > 0))
+      return {};
+    const Vec2 centre = moment * (1 / mass), mean = momentum * (1 / mass);
+    const double about_centre = inertia - mass * dot(centre, centre);
+    MeanMotion motion{mean, about_centre > 0 ? (turning - cross(moment, mean)) / about_centre : 0};
+    motion.at_tip -= motion.spin * turned(centre);
+    return motion;
   }
 
   /// Chooses particles of the band, and of the area where that is asked for.

@@ -16,9 +16,10 @@
 // Around a tip that runs steadily both parts of P_K grow as 1/r^2 and cancel at each place. What the grid makes of them
 // a few cells about the tip does not cancel, as it smooths a and grad v unlike, and the tip runs by steps of a
 // particle. So of a tip that runs the integral is that of its core, a contour of its own within which P_K is left out:
-// sum a_p (q - q_core) P_K. There v is that beyond the mean velocity around the tip: where sums are exact J is the same
+// sum a_p (q - q_core) P_K. There v is that beyond the mean motion around the tip: where sums are exact J is the same
 // but for what the core leaves out, and v^2/2 of a solid that flies or spins makes no errors as large as what opens the
-// crack.
+// crack. Beside known fields that run with the tip it would: they move as r^(-1/2), and a spin omega would add rho
+// speed omega r^1.5 of the band to K_II.
 #pragma once
 #include <functional>
 #include <limits>
@@ -53,6 +54,14 @@ struct TipSums {
   bool pressed = false;     ///< there, as faces are pressed together next to them
 };
 
+/// Of particles around a tip: their mean velocity and how they turn about it.
+struct MeanMotion {
+  Vec2 at_tip;      ///< m/s
+  double spin = 0;  ///< rad/s
+  /// At offset r from the tip.
+  RIVEN_INLINE Vec2 at(Vec2 r) const { return at_tip + spin * turned(r); }
+};
+
 /// A tip to sum around.
 struct TipTask {
   JDomain domain;
@@ -69,7 +78,7 @@ struct TipTask {
   const PlaneElasticity* solid = nullptr;
   double thickness = 1;  ///< m, of the solid
   RunningTip running;
-  Vec2 drift;                             ///< m/s, mean velocity of the particles around it, if v^2/2 counts
+  MeanMotion drift;                       ///< of the particles around it, if v^2/2 counts
   const std::uint8_t* touched = nullptr;  ///< ContactSums::touched; none: faces that are close may press on each other
   bool inertia = false;                   ///< asks for what it adds to TipSums::area
   const BodyForces* forces = nullptr;     ///< none: there are none

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/fracture/opening.hpp"
 #include "core/fracture/place_domain.hpp"
+#include "core/state/make_tips.hpp"
 #include "kernels/simulation.hpp"
 
 namespace riven {
@@ -33,6 +35,12 @@ constexpr double alike_filled = 0.1;
 /// Cells from a tip from which on an edge that has been drawn in to the border of the solid is drawn in once more: in
 /// the cell beside a border, above all a loaded one, stresses are off by tens of per cent.
 constexpr double clear_of_border = 2.5;
+
+/// rho a R^1.5 / K of a contour with edges at R, in a solid that speeds up by a, from which on its inertia counts by
+/// any contour: without it J of a crack along a is off by some 3 times that part.
+constexpr double least_inertia = 0.01;
+/// Of its toughness, what a tip that may grow is taken to have at least then.
+constexpr double least_load = 0.3;
 
 std::vector<Vec2> positions_of(const Cracks& cracks, const std::vector<Tip>& tips) {
   std::vector<Vec2> list;
@@ -77,7 +85,7 @@ TipTask TipContours<Real>::place(DueTip& d) const {
     task.touched = m_.contact_sums.touched.data();
   task.other_faces = rules_.method != JMethod::pijc;
   task.forces = d.forces;
-  task.inertia = counts_inertia(d, task.running.speed > 0);
+  task.inertia = counts_inertia(d, task);
   if (task.running.speed > 0)
     task.core = core_of(task.domain, core_of_running_tip * m_.scene.cell, m_.scene.cell);
   task.interaction = rules_.interaction;
@@ -93,12 +101,42 @@ TipTask TipContours<Real>::place(DueTip& d) const {
 /// J has inertia within the contour; of a tip that runs, beyond its core, and what a near one says of its drive has
 /// none. Body forces are what a free body gives way to: around a tip at rest both count, or neither.
 template <class Real>
-bool TipContours<Real>::counts_inertia(const DueTip& d, bool runs) const {
+bool TipContours<Real>::counts_inertia(const DueTip& d, const TipTask& task) const {
   if (rules_.area == AreaTerm::never)
     return false;
-  if (runs)
+  if (task.running.speed > 0)
     return !d.near && rules_.contour > 2 * core_of_running_tip;
-  return rules_.area == AreaTerm::always || rules_.contour > 10 || d.forces != nullptr;
+  return rules_.area == AreaTerm::always || rules_.contour > 10 || d.forces != nullptr ||
+         (!d.tip->running && speeds_up(*d.tip, task));
+}
+
+/// Does the solid speed up so much at the corners of the contour that it counts? Not around a tip that has grown
+/// lately: what its last segment let go speeds up within the contour, and J of the few cells around is what drives it
+/// on.
+template <class Real>
+bool TipContours<Real>::speeds_up(const Tip& tip, const TipTask& task) const {
+  const Grid<Real>& grid = s_.grid;
+  const Lattice& l = grid.lattice;
+  const JDomain& d = task.domain;
+  double a = 0;  // m/s^2, the mean of its sizes: on either side of a crack it may point either way
+  for (const double x : {-d.reach[left], d.reach[right]})
+    for (const double y : {-d.reach[bottom], d.reach[top]}) {
+      const Vec2 X = (d.tip + Vec2{x, y} - l.origin) * (1 / l.h);
+      const int i = static_cast<int>(std::lround(X.x)), j = static_cast<int>(std::lround(X.y));
+      const long node = long{j} * l.nx + i;
+      if (i >= 0 && i < l.nx && j >= 0 && j < l.ny)
+        a += 0.25 * norm(Vec2{double{grid.q[4 * node + 2]}, double{grid.q[4 * node + 3]}});
+    }
+  const double E = task.solid->E, of_opening = E * std::sqrt(2 * std::numbers::pi) / 8;
+  double K = of_opening * norm(opening_behind(s_.cracks, tip, l.h));
+  if (tip.grows) {
+    const GrowthRule rule = growth_rule_at(m_.scene, tip);
+    const double toughness = rule.criterion == GrowthCriterion::k_max ? rule.toughness : std::sqrt(E * rule.toughness);
+    K = std::max(K, least_load * toughness);
+  }
+  const double R = *std::max_element(d.reach, d.reach + 4);
+  const double density = m_.scene.materials[static_cast<size_t>(tip.material)].density;
+  return density * a * R * std::sqrt(R) > least_inertia * K;
 }
 
 /// The other tips, where the contour is to leave them out.

@@ -60,7 +60,8 @@ class TipContours {
 
  private:
   void draw_in(DueTip& d, const TipTask& task) const;
-  bool counts_inertia(const DueTip& d, bool runs) const;
+  bool counts_inertia(const DueTip& d, const TipTask& task) const;
+  bool speeds_up(const Tip& tip, const TipTask& task) const;
   std::vector<Vec2> other_tips(const Tip& tip) const;
   void leave_out_bends(DueTip& d, Vec2 tip, std::vector<Vec2>& left_out) const;
   double acting_within(const Tip& tip, const JDomain& domain) const;

@@ -100,7 +100,8 @@ TEST(FractureWarnings, ATipMayLieOnAColumnOfNodes) {
   for (const bool on : {true, false}) {
     const char* x = on ? "25 mm" : "25.1 mm";
     Plate plate("sent",
-                coarse(1, {fmt::format("crack.H.points=[[\"-1 mm\", \"48.5 mm\"], [\"{}\", \"48.5 mm\"]]", x)}));
+                coarse(1, {fmt::format("crack.H.points=[[\"-1 mm\", \"48.5 mm\"], [\"{}\", \"48.5 mm\"]]", x),
+                           "fracture.area_integral=never"}));  // of waves that no cell resolves it makes more or less
     for (int n = 0; n < 6; ++n) {
       plate.simulation().step();
       K[on].push_back(plate.tip(4).M_I);

@@ -284,6 +284,37 @@ TEST(JOfKnownFields, ATipThatRunsIsDrivenByTheFieldsNearIt) {
   }
 }
 
+// Fields that run with the tip move as its speed times their slope. What the solid does as a whole has no part in that,
+// wherever the tip is in it.
+TEST(JOfKnownFields, ATipThatRunsKnowsNothingOfHowItsSolidFliesOrSpins) {
+  const test::ChosenSpace space;
+  StressIntensity K[2];
+  double J[2];
+  for (const bool moves : {false, true}) {
+    Scene scene = square(Plane::strain, {crack("target", {{-13, 0.1}, {0, 0.1}})});
+    scene.contact.law = ContactLaw::ignored;  // the fields are laid without the opening that goes with them
+    Simulation m(scene, space);
+    const PlaneElasticity solid(scene.materials[0], scene.plane);
+    const double speed = 0.3 * solid.shear_speed, spin = moves ? 0.1 * solid.shear_speed : 0;
+    lay(m, [&](Vec2 x) { return near_tip(solid, x - Vec2{0, 0.1}, {1, 0}, 1, 0); });
+    auto& p = m.state.particles;
+    for (int i = 0; i < p.count(); ++i) {
+      p.v[0][i] = spin * (7 - p.x[1][i]);
+      p.v[1][i] = spin * (p.x[0][i] + 5);
+    }
+    Tip& tip = *std::find_if(m.state.tips.begin(), m.state.tips.end(), [](const Tip& x) { return x.open; });
+    tip.speed = speed;
+    m.state.clock.dt = scene.end_time;  // a row is due
+    find_j_and_k(m);
+    K[moves] = {tip.M_I, tip.M_II};
+    J[moves] = tip.J;
+  }
+  EXPECT_GT(K[0].I, 0.5);
+  EXPECT_NEAR(K[1].I, K[0].I, 1e-9);
+  EXPECT_NEAR(K[1].II, K[0].II, 1e-9);
+  EXPECT_NEAR(J[1], J[0], 1e-9 * J[0]);
+}
+
 // A crack that is pressed shut by p and slides against the friction mu p, K_II besides: the contact has no part in the
 // energy that the tip releases, whatever the contour, and the fields next to the faces that bear it are no mode I.
 TEST(JOfKnownFields, IsThatOfTheTipAloneBetweenShutFacesThatSlide) {
@@ -400,11 +431,13 @@ InertiaByHand inertia_by_hand(const Simulation& m, const TipTask& task) {
         grad = grad + Mat2<double>{q[0] * gx, q[0] * gy, q[1] * gx, q[1] * gy};
         acceleration += a.s[i] * b.s[j] * Vec2{q[2], q[3]};
       }
-    const Mat2<double> F{p.F[0][k], p.F[1][k], p.F[2][k], p.F[3][k]}, rate = grad * F, H = task.gradient(F);
+    const Mat2<double> F{p.F[0][k], p.F[1][k], p.F[2][k], p.F[3][k]}, H = task.gradient(F);
     const double core = task.core ? task.core->weight(r) : 0;
     const double mass = (task.domain.weight(r) - core) * p.mass[k] / m.state.thickness[p.body[k]];
-    const Vec2 v =
-        task.running.speed > 0 ? Vec2{p.v[0][k], p.v[1][k]} - task.drift : Vec2{};  // cancels around a tip at rest
+    const Vec2 v = task.running.speed > 0 ? Vec2{p.v[0][k], p.v[1][k]} - task.drift.at(r)
+                                          : Vec2{};  // cancels around a tip at rest
+    grad = grad + Mat2<double>{0, task.drift.spin, -task.drift.spin, 0};
+    const Mat2<double> rate = grad * F;
     const Vec2 part = mass * Vec2{H.xx * acceleration.x + H.yx * acceleration.y - rate.xx * v.x - rate.yx * v.y,
                                   H.xy * acceleration.x + H.yy * acceleration.y - rate.xy * v.x - rate.yy * v.y};
     sum.J += part;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "tests/physics/scene_gates.hpp"
@@ -66,6 +67,101 @@ TEST(MovingBody, IsCutAsOneAtRest) {
       EXPECT_NEAR(flies.time[end] / rest.time[end], 1, 0.04);
     }
   }
+}
+
+/// A crack that its pressure drives through a disk, and how far it runs off its radius, rad.
+double way_off_radius(double spin) {
+  Scene s = empty_scene(1 * mm, {{-36 * mm, -36 * mm}, {36 * mm, 36 * mm}});
+  s.materials = {{"disk", LawKind::linear_elastic, 3e9, 0.3, 1200}};
+  s.plane = Plane::stress;
+  s.thickness = 1 * mm;
+  s.transfer = Transfer::fmpm;
+  s.order = 2;
+  s.bodies = {body("disk", Disk{{0, 0}, 30 * mm})};
+  s.bodies[0].spin = spin;
+  CrackLine line = crack("centre", {{-8 * mm, 0}, {8 * mm, 0}});
+  TractionSettings pressure;
+  pressure.kind = TractionKind::pressure;
+  pressure.pressure = TimeFunction{5 * MPa, [](double t) { return std::min(1., t / (10 * us)); }, ""};
+  pressure.region = Rectangle{{-8 * mm, -1 * mm}, {8 * mm, 1 * mm}};
+  line.traction = pressure;
+  s.cracks = {line};
+  s.growth = GrowthRule{};
+  s.growth->toughness = 0.5e6;
+  s.fracture.contour = 8;
+  s.end_time = 60 * us;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  const auto length = [&](const Tip& t) { return t.length; };
+  while (!m.finished() && length(m.state.tips[0]) < 12 * mm && length(m.state.tips[1]) < 12 * mm)
+    m.step();
+  double most = 0;
+  const double turned_by = spin * m.state.clock.time;
+  for (const Tip& t : m.state.tips) {
+    const Vec2 x = m.state.cracks.plane[m.state.cracks.end_point(t.crack, t.last)];
+    EXPECT_GT(t.length, 8 * mm);
+    const double way = std::atan2(x.y, x.x) - turned_by;
+    most = std::max(most, std::abs(std::remainder(way, std::numbers::pi)));
+  }
+  return most;
+}
+
+/// As steady fields around a tip move with it, what the disk does as a whole would be a part of K_II.
+TEST(MovingBody, SpinsAndItsCrackKeepsToTheRadius) {
+  for (const double spin : {0., 1000.}) {
+    const double degrees = way_off_radius(spin) * 180 / std::numbers::pi;
+    gates::report(fmt::format("way of a crack off its radius in a disk with {} rad/s, degrees", spin), degrees, "0.5");
+    EXPECT_LT(degrees, 0.5);
+  }
+}
+
+/// A block that is pulled across its crack and pushed along it: both tips have the same, whatever the contour. What
+/// holds the block back within the contour is of the order of J by 4 cells, and three times J by 8.
+TEST(MovingBody, SpeedsUpWithTheSameJAtBothTips) {
+  Scene s = empty_scene(1 * mm, {{-28 * mm, -20 * mm}, {36 * mm, 20 * mm}});
+  s.materials = {{"block", LawKind::linear_elastic, 3e9, 0.3, 1200}};
+  s.thickness = 1 * mm;
+  const Rectangle block{{-16 * mm, -16 * mm}, {16 * mm, 16 * mm}};
+  s.bodies = {body("block", block)};
+  s.cracks = {crack("centre", {{-6 * mm, 0}, {6 * mm, 0}})};
+  const auto rises = [](double t) {
+    return t < 150 * us ? 0.5 * (1 - std::cos(std::numbers::pi * t / (150 * us))) : 1;
+  };
+  const auto pull = [&](Load::Edge edge, int axis, double stress) {
+    Load load = traction_on(edge, block);
+    load.value[axis] = TimeFunction{stress, rises, ""};
+    s.loads.push_back(load);
+  };
+  pull(Load::Edge::top, 1, 5 * MPa);
+  pull(Load::Edge::bottom, 1, -5 * MPa);
+  pull(Load::Edge::right, 0, 40 * MPa);
+  s.fracture.asked = true;
+  for (const int contour : {4, 8, 16}) {
+    FractureRules rules;
+    rules.contour = contour;
+    s.readings.push_back({std::to_string(contour), rules});
+  }
+  s.output.history_every = 1 * us;
+  s.end_time = 200 * us;
+  const ChosenSpace space;
+  Simulation m(s, space);
+  double J[3][2] = {};  // sums over steps
+  while (!m.finished()) {
+    m.step();
+    if (m.state.clock.time < 160 * us)
+      continue;
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t tip = 0; tip < 2; ++tip)
+        J[k][tip] += m.state.readings[k][tip].J;
+  }
+  const double by_16 = 0.5 * (J[2][0] + J[2][1]);
+  for (size_t k = 0; k < 3; ++k)
+    for (size_t tip = 0; tip < 2; ++tip) {
+      gates::report(fmt::format("block that speeds up along its crack: J of {} tip by {} cells over that by 16",
+                                tip == 0 ? "first" : "last", s.readings[k].name),
+                    J[k][tip] / by_16, "1 +- 0.02");
+      EXPECT_NEAR(J[k][tip] / by_16, 1, 0.02);
+    }
 }
 
 /// At the tips of a crack through the middle of a disk v^2/2 of the spin would make J of rho omega^2 r times the area
