@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <variant>
 
 #include "core/fracture/growth.hpp"
@@ -74,34 +73,9 @@ void doubt_edges(const Scene& s, const Body& b, std::vector<Doubt>& list) {
 }
 
 /// What flies faster than its own waves is meant to hit something at hundreds of metres a second, at least.
-void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
-  const Material& m = s.materials[static_cast<size_t>(b.material)];
-  const double waves = std::sqrt(m.E / m.density), speed = norm(b.velocity);
-  if (speed > waves)
-    list.push_back({place(s, "body " + b.name),
-                    fmt::format("it begins at {:.4g} m/s, faster than its waves, which run at {:.4g}", speed, waves),
-                    "look at the unit of velocity"});
-}
-
-/// Particles that lie askew to the grid strain a loaded body a little more wherever it turns to: 2 x 2 in a cell let a
-/// crack that is held open open by 13 % more in a quarter turn, 3 x 3 by 2 %.
-void doubt_spin(const Scene& s, const Body& b, std::vector<Doubt>& list) {
-  constexpr double far = 0.7;  // rad
-  const double turn = std::fabs(b.spin) * s.end_time;
-  if (!s.cracks.empty() && b.particles_per_cell < 3 && turn > far)
-    list.push_back(
-        {place(s, "body " + b.name),
-         fmt::format("it turns by {:.0f} degrees, and cracks under load open by a tenth more in a quarter turn",
-                     turn * 180 / std::numbers::pi),
-         "try particles_per_cell = 3"});
-}
-
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
-  for (const Body& b : s.bodies) {
+  for (const Body& b : s.bodies)
     doubt_edges(s, b, list);
-    doubt_velocity(s, b, list);
-    doubt_spin(s, b, list);
-  }
   for (const Body& b : s.bodies)
     for (const Region& hole : b.holes) {
       const Vec2 size = bounds(hole).upper - bounds(hole).lower;
@@ -222,21 +196,16 @@ void doubt_speed(const Scene& s, const std::optional<GrowthRule>& rule, const st
          "leave speed_limit out"});
 }
 
-/// FLIP wears no waves down: what a crack releases stays in the body, and so does what particles and cohesive faces do
-/// to each other between nodes.
+/// FLIP wears no waves down: what a crack releases stays in the body.
 void doubt_noise(const Scene& s, std::vector<Doubt>& list) {
-  for (size_t c = 0; s.transfer == Transfer::flip && c < s.cracks.size(); ++c) {
-    const CrackLine& crack = s.cracks[c];
-    const bool grows = growth_rule(s, static_cast<int>(c)) != nullptr;
-    if (!grows && !(crack.traction && crack.traction->kind != TractionKind::pressure))
-      continue;
-    list.push_back({place(s, "crack " + crack.name),
-                    grows ? "with FLIP the energy that a crack releases as it grows stays in the body as noise, which "
-                            "drives tips on"
-                          : "with FLIP a stiff cohesive law may feed the noise between its faces until the run stops",
-                    "try solver.transfer = \"fmpm\" with solver.order = 2"});
-    return;
-  }
+  for (size_t c = 0; s.transfer == Transfer::flip && c < s.cracks.size(); ++c)
+    if (growth_rule(s, static_cast<int>(c))) {
+      list.push_back({place(s, "crack " + s.cracks[c].name),
+                      "with FLIP the energy that a crack releases as it grows stays in the body as noise, which drives "
+                      "tips on",
+                      "try solver.transfer = \"fmpm\" with solver.order = 2"});
+      return;
+    }
 }
 
 /// With uGIMP, at any time step; linear functions and B-splines do not.
@@ -280,6 +249,7 @@ std::vector<Doubt> doubts(const Scene& s) {
   doubt_materials(s, list);
   doubt_toughness(s, list);
   doubt_solids(s, list);
+  doubt_motion(s, list);
   doubt_gaps(s, list);
   doubt_grips(s, list);
   doubt_borders(s, list);

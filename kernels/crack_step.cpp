@@ -52,7 +52,8 @@ void move_with_grid(SimulationOf<Real>& m) {
   with_shape(m.plan.shape, [&](auto shape) {
     move_cracks<typename decltype(shape)::type>(
         m.space, s.grid, s.fields,
-        {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass, m.plan.cracks_move_again()},
+        {m.scene.crack_motion, m.scene.surface_update, least_surface * s.particle_mass, m.plan.cracks_move_again(),
+         m.plan.cohesive},
         s.clock.dt, s.cracks);
   });
   tie_junctions(s.cracks, m.scene.cell);

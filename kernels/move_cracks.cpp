@@ -16,11 +16,26 @@ namespace {
 /// Points whose surfaces are fitted together, and those that one task moves.
 constexpr long points_of_fit = MotionLanes::lanes / 2, points_of_move = exec::lanes > 1 ? 32 : 1;
 
+/// Takes the change of a fitted velocity over the step in place of the acceleration around each surface.
+template <class Shape, class Real>
+RIVEN_FN void fit_changes(const Extrapolation<Shape, Real>& from, SurfaceLanes<Real>& lanes, MotionLanes& motions) {
+  for (auto& node : lanes.q)
+    for (auto& motion : node)
+      motion[2] = motion[3] = 0;
+  MotionLanes after;
+  from.fit(lanes, after);
+  for (int k = 0; k < MotionLanes::lanes; ++k) {
+    PointMotion m = motions.motion(k);
+    m.acceleration = (after.motion(k).before - m.before) * (1 / from.dt);
+    motions.put(k, m);
+  }
+}
+
 /// Looks up the surfaces of points [first, end), as many as are fitted together. In stages, so that what one point
 /// waits for is not what the next one does.
 template <class Shape, class Real>
-RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackView& cracks, long first, long end,
-                            PointMotion* found) {
+RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackView& cracks, bool cohesive, long first,
+                            long end, PointMotion* found) {
   SurfacePair pair[points_of_fit];
   bool on_grid[points_of_fit] = {};
   const long last = cracks.points - 1;
@@ -45,6 +60,8 @@ RIVEN_FN void find_surfaces(const Extrapolation<Shape, Real>& from, const CrackV
   }
   MotionLanes motions;
   from.fit(lanes, motions);
+  if (cohesive)
+    fit_changes(from, lanes, motions);
   for (long n = 2 * first; n < 2 * end; ++n)
     found[n] = motions.motion(static_cast<int>(n - 2 * first));
 }
@@ -61,15 +78,15 @@ void move_cracks(const exec::Space& space, const Grid<Real>& grid, const CrackFi
   found.surfaces.resize(2 * points);
   const bool of_all = rules.motion == CrackMotion::center_of_mass;
   found.all.resize(of_all ? points : 0);
-  exec::parallel_tasks(
-      space, "move cracks", (points + points_of_move - 1) / points_of_move,
-      [=, surfaces = exec::data_to_fill(found.surfaces), all = exec::data_to_fill(found.all)] RIVEN_KERNEL(long task) {
-        const long end = std::min(points, (task + 1) * points_of_move);
-        for (long first = task * points_of_move; first < end; first += points_of_fit)
-          find_surfaces(from, at, first, std::min(end, first + points_of_fit), surfaces);
-        for (long k = task * points_of_move; of_all && k < end; ++k)
-          all[k] = from.of_all_fields(at.plane[k]);
-      });
+  exec::parallel_tasks(space, "move cracks", (points + points_of_move - 1) / points_of_move,
+                       [=, cohesive = rules.cohesive, surfaces = exec::data_to_fill(found.surfaces),
+                        all = exec::data_to_fill(found.all)] RIVEN_KERNEL(long task) {
+                         const long end = std::min(points, (task + 1) * points_of_move);
+                         for (long first = task * points_of_move; first < end; first += points_of_fit)
+                           find_surfaces(from, at, cohesive, first, std::min(end, first + points_of_fit), surfaces);
+                         for (long k = task * points_of_move; of_all && k < end; ++k)
+                           all[k] = from.of_all_fields(at.plane[k]);
+                       });
   move_points(space, found, rules, dt, cracks);
 }
 

@@ -2,8 +2,8 @@
 //
 // Velocity and acceleration at a surface point x_s are mass-weighted and renormalised over the nodes that have mass in
 // the field v(s,i), with the ordinary functions of the grid N_i, as these points have no domain (eqs. 3-6), and carried
-// on to x_s by the gradient around it (surface_velocity.hpp). With v before and v~ = v + a dt after the forces, a
-// surface moves by
+// on to x_s by the gradient around it (surface_velocity.hpp): the acceleration only where a face bears a cohesive law.
+// With v before and v~ = v + a dt after the forces, a surface moves by
 //   flip   (v + v~) dt / 2                      (second order)
 //   xpic   (v + (v~ - v_s) / 2) dt, v_s := v~   (XPIC(1); v_s starts as v)
 //   pic    v~ dt                                (first order)

@@ -13,6 +13,7 @@ struct CrackRules {
   SurfaceUpdate update = SurfaceUpdate::xpic;
   double least_mass = 0;  ///< kg; a surface that finds less of it finds nothing
   bool again = false;     ///< by the motion of Grid::again (Plan::cracks_move_again)
+  bool cohesive = false;  ///< some faces pull by how far they have opened
 };
 
 /// What the grid says of crack points; mass 0 where that is nothing.

@@ -13,7 +13,10 @@
 // lambda. B_i is the quadratic B-spline, whose nodes are spread by half a cell in every direction wherever the point
 // lies, so that L is smooth in x_s; lambda keeps what nodes in one row cannot tell, stretching across the row, out of
 // L, and mu << lambda all where there is a single node. v is the velocity before the forces, an average of the
-// particles' that is sound even where m is tiny; the acceleration f/m is not, and remains mass-weighted.
+// particles' that is sound even where m is tiny; the acceleration f/m is not, and remains mass-weighted. Where a force
+// goes by how far faces have opened, as that of a cohesive law, these must open by what the force does to v(x_s): v is
+// then fitted before and after. With c a of the velocity that they gain by a, c < 1, an opening of frequency w swings
+// ever further, by a factor of 1 + (1 - c) (w dt)^4 / 2 or so in a step.
 //
 // A force F on the surface goes to the nodes by the transposed of v(x_s), so that the nodes do with it the work that
 // the surface does: with d = x_s - x*, F . L d = sum W_i (G r_i) . v_i, where G is the gradient of the same fit to F

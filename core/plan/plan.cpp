@@ -75,8 +75,10 @@ Plan make_plan(const Scene& scene) {
     p.growth |= growth_rule(scene, c) != nullptr;
   p.fracture = p.growth || (p.cracks && scene.fracture.asked);
   p.law = law_choice(scene, p.fracture);
-  p.tractions =
-      std::any_of(scene.cracks.begin(), scene.cracks.end(), [](const CrackLine& c) { return c.traction.has_value(); });
+  for (const CrackLine& c : scene.cracks) {
+    p.tractions |= c.traction.has_value();
+    p.cohesive |= c.traction && c.traction->kind != TractionKind::pressure;
+  }
   p.grips = !scene.grips.empty();
   p.constraints = p.grips || !scene.fixed.empty() || !scene.symmetry.empty();
   p.loads = !scene.loads.empty();

@@ -37,6 +37,7 @@ struct Plan {
   bool fracture = false;          ///< J and K at every tip
   bool growth = false;            ///< some crack grows
   bool tractions = false;         ///< some crack's faces bear a pressure or a cohesive law
+  bool cohesive = false;          ///< the latter
   bool grips = false;
   bool constraints = false;  ///< any prescribed grid velocity: grips, fixed nodes, symmetry
   bool loads = false;
@@ -54,11 +55,8 @@ struct Plan {
   /// comes to rest there, a solid under tension would begin to swing by itself, by e in some 10,000 steps at a strain
   /// of 0.5 %. Faces that may slide, and what is around them, keep to the grid's own: contact, which is found by
   /// displacements, makes these the same on both sides. Moved otherwise, J of faces that are pressed together is off by
-  /// a tenth. With FLIP loaded faces do, too: a cohesive law pulls by how far they have opened, and opened by other
-  /// velocities than its forces change they would swing in growing steps.
-  bool cracks_move_again() const {
-    return extrapolate_again() && !contact_slides && !(tractions && transfer == Transfer::flip);
-  }
+  /// a tenth.
+  bool cracks_move_again() const { return extrapolate_again() && !contact_slides; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
   /// From the third order on, a product with the full mass matrix costs less than passes over the particles.
   bool full_mass() const { return higher_order() && order > 2; }

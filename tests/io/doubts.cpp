@@ -71,8 +71,20 @@ TEST(Doubts, NameBodiesFasterThanTheirWaves) {
   expect_doubt(s, "body plate", "faster than its waves");
 }
 
+TEST(Doubts, NameBodiesThatSpinAndStrainByThat) {
+  Scene s = sound_scene();
+  s.bodies[0].spin = -0.2 / s.end_time;
+  expect_doubt(s, "body plate", "strain at its borders");
+  s.stress_update = StressUpdate::usl;
+  EXPECT_TRUE(doubts(s).empty());
+  s.stress_update = StressUpdate::usavg;
+  s.bodies[0].spin = 0.05 / s.end_time;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameCracksThatTurnFarOnFewParticles) {
   Scene s = sound_scene();
+  s.stress_update = StressUpdate::usl;
   s.bodies[0].spin = 0.6 / s.end_time;
   EXPECT_TRUE(doubts(s).empty());
   s.bodies[0].spin = -0.8 / s.end_time;
@@ -102,20 +114,6 @@ TEST(Doubts, NameHighOrdersWithStressLast) {
   s.order = 4;
   expect_doubt(s, "solver.stress_update", "free corners");
   s.shape = ShapeFunction::bspline;
-  EXPECT_TRUE(doubts(s).empty());
-}
-
-TEST(Doubts, NameCohesiveLawsOnFlip) {
-  Scene s = sound_scene();
-  TractionSettings& t = s.cracks[0].traction.emplace();
-  t.strength = t.shear_strength = 50e6;
-  t.toughness = t.shear_toughness = 1e3;
-  t.kind = TractionKind::triangular;
-  expect_doubt(s, "crack edge", "noise between its faces");
-  s.transfer = Transfer::fmpm;
-  EXPECT_TRUE(doubts(s).empty());
-  s.transfer = Transfer::flip;
-  t.kind = TractionKind::pressure;
   EXPECT_TRUE(doubts(s).empty());
 }
 
@@ -377,7 +375,6 @@ TEST(Doubts, NameCohesiveZonesTooShortForTheCells) {
     Scene s = sound_scene();
     s.cracks[0].points.back().x = 41e-3;
     s.fracture.asked = false;
-    s.transfer = Transfer::fmpm;
     TractionSettings& t = s.cracks[0].traction.emplace();
     t.kind = TractionKind::triangular;
     t.strength = t.shear_strength = strength;

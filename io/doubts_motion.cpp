@@ -1,0 +1,58 @@
+// How bodies move: faster than their waves, or so that they turn far.
+#include <cmath>
+#include <numbers>
+
+#include "io/checks.hpp"
+#include "io/doubts.hpp"
+
+namespace riven {
+
+using namespace checks;
+
+namespace {
+
+void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  const Material& m = s.materials[static_cast<size_t>(b.material)];
+  const double waves = std::sqrt(m.E / m.density), speed = norm(b.velocity);
+  if (speed > waves)
+    list.push_back({place(s, "body " + b.name),
+                    fmt::format("it begins at {:.4g} m/s, faster than its waves, which run at {:.4g}", speed, waves),
+                    "look at the unit of velocity"});
+}
+
+/// Particles that lie askew to the grid strain a loaded body a little more wherever it turns to: with 2 x 2 in a cell a
+/// crack opens by 13 % more in a quarter turn where a pressure holds it open, by 4 % where its body is pulled; with
+/// 3 x 3 by 2 %.
+void doubt_cracks_that_turn(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  constexpr double far = 0.7;  // rad
+  const double turn = std::fabs(b.spin) * s.end_time;
+  if (!s.cracks.empty() && b.particles_per_cell < 3 && turn > far)
+    list.push_back(
+        {place(s, "body " + b.name),
+         fmt::format("it turns by {:.0f} degrees, and cracks under load open by a tenth more in a quarter turn",
+                     turn * 180 / std::numbers::pi),
+         "try particles_per_cell = 3"});
+}
+
+/// At a border nodes have the velocity of particles within the body, so that one that spins strains there. Where stress
+/// comes last the grid gives way at once; velocities extrapolated from particles do not. A disk with a radius of 40
+/// cells whose rim moves at 0.013 of its wave speed has by FLIP 1.5 times its strain energy more in each 11 degrees of
+/// its turn, by FMPM 20 times; with usl as much as it should.
+void doubt_border_of_spin(const Scene& s, const Body& b, std::vector<Doubt>& list) {
+  constexpr double far = 0.1;  // rad
+  if (std::fabs(b.spin) * s.end_time > far && s.stress_update != StressUpdate::usl && s.shape != ShapeFunction::linear)
+    list.push_back({place(s, "body " + b.name), "it spins, and would strain at its borders by that",
+                    "try solver.stress_update = \"usl\""});
+}
+
+}  // namespace
+
+void doubt_motion(const Scene& s, std::vector<Doubt>& list) {
+  for (const Body& b : s.bodies) {
+    doubt_velocity(s, b, list);
+    doubt_cracks_that_turn(s, b, list);
+    doubt_border_of_spin(s, b, list);
+  }
+}
+
+}  // namespace riven
