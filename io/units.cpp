@@ -225,6 +225,8 @@ std::optional<double> plain_number(std::string_view text) {
 double parse_quantity(std::string_view text, const Dimension& d) {
   const Split s = split(text, d);
   check_digits(s.unit, text, d);
+  if (&d == &dimension::angular_velocity && (s.unit.ends_with("Hz") || s.unit.ends_with("hertz")))
+    refuse("'" + s.unit + "' counts turns, and would be taken for rad/s", text, d, "60 rpm is one turn in a second");
   if (const auto by = factor(s.unit, d.si))
     return scaled(s.number, *by, text, d);
   const std::string near = nearest(s.unit, d.usual);

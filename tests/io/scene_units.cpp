@@ -48,6 +48,8 @@ TEST(Units, WrongDimensionIsRefused) {
       << "a unit and its reciprocal are not the same";
   EXPECT_NE(refusal("1 kg", dimension::density).find("not a unit of density"), std::string::npos);
   EXPECT_NE(refusal("1 MPa mm", dimension::stress).find("not a unit of stress"), std::string::npos);
+  for (const char* text : {"1 Hz", "2 kHz", "1 hertz"})
+    EXPECT_NE(refusal(text, dimension::angular_velocity).find("counts turns"), std::string::npos) << text;
 }
 
 TEST(Units, UnknownUnitIsRefusedWithTheNearest) {

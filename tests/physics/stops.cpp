@@ -170,6 +170,27 @@ TEST(Stops, LetLoadsBeginAtOnce) {
   EXPECT_LT(m.state.ledger.energy.numerical(), m.plan.energy_growth * m.state.ledger.energy.largest);
 }
 
+/// A grip whose weight on the last nodes of a body is but a rounding: the energy of these is none.
+TEST(Stops, AreNotOfEnergiesOfRounding) {
+  constexpr double mm = 1e-3;
+  Scene s = empty_scene(mm, {{-4 * mm, -4 * mm}, {24 * mm, 24 * mm}});
+  s.bodies = {body("plate", Rectangle{{0, 0}, {20 * mm, 20 * mm}})};
+  for (const double lower : {21.0, 21.25, 21.5}) {
+    Grip grip;
+    grip.name = "away";
+    grip.region = Rectangle{{0, lower * mm}, {20 * mm, 23 * mm}};
+    grip.velocity[1] = constant(-1);
+    s.grips = {grip};
+    const ChosenSpace space;
+    Simulation m(s, space);
+    for (int n = 0; n < 5; ++n) {
+      m.step();
+      EXPECT_NO_THROW(m.take_stock()) << lower;
+    }
+    EXPECT_LT(std::abs(m.state.ledger.energy.relative_error()), 1e-6) << lower;
+  }
+}
+
 /// Grips that move off at once strain what they hold before they are booked with work.
 TEST(Stops, LetGripsBeginAtOnce) {
   for (const StressUpdate update : {StressUpdate::musl, StressUpdate::usavg}) {
