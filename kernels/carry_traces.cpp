@@ -18,12 +18,19 @@ namespace {
 /// Cells, and nodes, of one task.
 constexpr long some = 512;
 
-/// The same points and segments in the former lists and the new ones: PointMap.
+/// The same points and segments in the former lists and the new ones: PointMap. Particles were traced, and nodes
+/// measured, against what they saw: what has moved into their sight since is as good as new.
 struct SameSegments {
-  const int* now_of;
+  const int *now_of, *former_of;
   const std::uint8_t *is_new, *is_gone;
 
-  RIVEN_FN bool any_new(const int* first, const int* last) const { return any(is_new, first, last); }
+  /// Is any of these new, or has come in sight of what saw [was, was_end) before?
+  RIVEN_FN bool any_new(const int* first, const int* last, const int* was, const int* was_end) const {
+    for (; first < last; ++first)
+      if (is_new[*first] || !std::binary_search(was, was_end, former_of[*first]))
+        return true;
+    return false;
+  }
   RIVEN_FN bool any_gone(const int* first, const int* last) const { return any(is_gone, first, last); }
 
  private:
@@ -45,9 +52,11 @@ struct CellTurner {
   /// nothing around it.
   RIVEN_FN void where_new(long c) const {
     const int cell = now.cells[c];
-    if (was.cell_index[cell] < 0)
+    const int former = was.cell_index[cell];
+    if (former < 0)
       each_cell_around(now.lattice, cell, [&](long near) { turning.cell(near); });
-    else if (same.any_new(now.cell_segment + now.cell_start[c], now.cell_segment + now.cell_start[c + 1]))
+    else if (same.any_new(now.cell_segment + now.cell_start[c], now.cell_segment + now.cell_start[c + 1],
+                          was.cell_segment + was.cell_start[former], was.cell_segment + was.cell_start[former + 1]))
       turning.cell(cell);
   }
   /// Where some are gone.
@@ -104,9 +113,12 @@ struct NodeCarrier {
       if (o < was_last && was.candidate[o] == now.candidate[e])
         std::copy_n(from.verdict + 2 * o, 2, to.verdict + 2 * e);
     }
-    if (same.any_new(now.node_segment + now.segment_start[first], now.node_segment + now.segment_start[last]) ||
-        same.any_gone(was.node_segment + was.segment_start[was_first],
-                      was.node_segment + was.segment_start[was_last])) {
+    const int *const seen = was.node_segment + was.segment_start[was_first], *const seen_end =
+                                                                                 was.node_segment +
+                                                                                 was.segment_start[was_last];
+    if (same.any_new(now.node_segment + now.segment_start[first], now.node_segment + now.segment_start[last], seen,
+                     seen_end) ||
+        same.any_gone(seen, seen_end)) {
       turning.node(node.node);
       recount[n] = 1;
       return;
@@ -183,7 +195,8 @@ void carry_traces(const exec::Space& space, const Tiles& tiles, const Lattice& l
   clear_unmarked(space, tiles, f);
   carry_tiles(tiles, f);
   const ListsView now = lists_view(lattice, f), was = lists_view(lattice, f.former);
-  const SameSegments same{exec::data(map.now_of), exec::data(map.is_new), exec::data(map.is_gone)};
+  const SameSegments same{exec::data(map.now_of), exec::data(map.former_of), exec::data(map.is_new),
+                          exec::data(map.is_gone)};
   const CellTurner cells{now, was, turning(lattice, f), same};
   exec::launch_some(space, f.cells.size(), some, [=] RIVEN_KERNEL(long c) { cells.where_new(c); });
   exec::launch_some(space, f.former.cells.size(), some, [=] RIVEN_KERNEL(long c) { cells.where_gone(c); });
