@@ -72,7 +72,6 @@ void doubt_edges(const Scene& s, const Body& b, std::vector<Doubt>& list) {
                     "try cells that divide its sides, or smaller ones"});
 }
 
-/// What flies faster than its own waves is meant to hit something at hundreds of metres a second, at least.
 void doubt_solids(const Scene& s, std::vector<Doubt>& list) {
   for (const Body& b : s.bodies)
     doubt_edges(s, b, list);

@@ -11,6 +11,7 @@ using namespace checks;
 
 namespace {
 
+/// What flies faster than its own waves is meant to hit something at hundreds of metres a second, at least.
 void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
   const Material& m = s.materials[static_cast<size_t>(b.material)];
   const double waves = std::sqrt(m.E / m.density), speed = norm(b.velocity);

@@ -105,6 +105,11 @@ void apply(toml::table& root, const std::string& argument) {
         table->insert_or_assign(parts[i], std::move(*value.get("value")));
         return;
       }
+      const bool numbered =
+          std::all_of(parts[i + 1].begin(), parts[i + 1].end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (!table->contains(parts[i]) && numbered)
+        fail({Exit::bad_input, "there is no array '" + shown(parts[i]) + "'", shown(source), "", "",
+              "--set '" + shown(parts[i]) + "=[{...}]' makes one"});
       if (!table->contains(parts[i]))
         table->insert_or_assign(parts[i], std::move(*value_of("{}", source).get("value")));
       at = table->get(parts[i]);

@@ -119,8 +119,9 @@ class TipSummer {
     double mass = 0, inertia = 0, turning = 0;  // the latter two about the tip
     Vec2 moment, momentum;
     for (const auto [first, last] : patch.stretches)
-      for (int k = first; k < last; ++k)
-        if (const Vec2 r{p.x[0][k] - d.tip.x, p.x[1][k] - d.tip.y}; d.weight(r) > 0 && d.weight(r) < 1) {
+      for (int k = first; k < last; ++k) {
+        const Vec2 r{p.x[0][k] - d.tip.x, p.x[1][k] - d.tip.y};
+        if (const double q = d.weight(r); q > 0 && q < 1) {
           const double m = p.mass[k];
           const Vec2 v{p.v[0][k], p.v[1][k]};
           mass += m;
@@ -129,6 +130,7 @@ class TipSummer {
           inertia += m * dot(r, r);
           turning += m * cross(r, v);
         }
+      }
     if (!(mass > 0))
       return {};
     const Vec2 centre = moment * (1 / mass), mean = momentum * (1 / mass);

@@ -116,7 +116,6 @@ exec::Array<ChunkSums> sum_particles(const exec::Space& space, const Particles<R
   return part;
 }
 
-/// Adds up what chunks hold, in their order; of equal figures the first chunk's counts.
 /// J, of motion of 1e-12 of a cell in a step: what is less, as where a grip's weight on a node is a rounding, is none.
 template <class Real>
 double of_rounding(const State<Real, 2>& s) {
@@ -124,6 +123,7 @@ double of_rounding(const State<Real, 2>& s) {
   return 0.5 * s.particle_mass * s.particles.count() * speed * speed;
 }
 
+/// Adds up what chunks hold, in their order; of equal figures the first chunk's counts.
 Sums total_of(const exec::Array<ChunkSums>& part, Deformation& all) {
   Sums total;
   all = {};

@@ -127,16 +127,16 @@ bool TipContours<Real>::speeds_up(const Tip& tip, const TipTask& task) const {
       if (i >= 0 && i < l.nx && j >= 0 && j < l.ny)
         a += 0.25 * norm(Vec2{double{grid.q[4 * node + 2]}, double{grid.q[4 * node + 3]}});
     }
-  const double E = task.solid->E, of_opening = E * std::sqrt(2 * std::numbers::pi) / 8;
-  double K = of_opening * norm(opening_behind(s_.cracks, tip, l.h));
+  const double E = task.solid->E, R = *std::max_element(d.reach, d.reach + 4);
+  const double density = m_.scene.materials[static_cast<size_t>(tip.material)].density;
+  const double most_K = density * a * R * std::sqrt(R) / least_inertia;  // with which it counts
   if (tip.grows) {
     const GrowthRule rule = growth_rule_at(m_.scene, tip);
-    const double toughness = rule.criterion == GrowthCriterion::k_max ? rule.toughness : std::sqrt(E * rule.toughness);
-    K = std::max(K, least_load * toughness);
+    const bool by_K = rule.criterion == GrowthCriterion::k_max;
+    if (most_K <= least_load * (by_K ? rule.toughness : std::sqrt(E * rule.toughness)))
+      return false;
   }
-  const double R = *std::max_element(d.reach, d.reach + 4);
-  const double density = m_.scene.materials[static_cast<size_t>(tip.material)].density;
-  return density * a * R * std::sqrt(R) > least_inertia * K;
+  return E * std::sqrt(2 * std::numbers::pi) / 8 * norm(opening_behind(s_.cracks, tip, l.h)) < most_K;
 }
 
 /// The other tips, where the contour is to leave them out.

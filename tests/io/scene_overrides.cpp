@@ -72,6 +72,7 @@ TEST(Overrides, UnknownPathIsRefusedWithTheNearest) {
   EXPECT_EQ(message("solvr.cfl=0.3"), "unknown table 'solvr' / did you mean 'solver'?");
   EXPECT_EQ(message("body.plte.spin=1 rad/s"), "there is no entry 'plte' / did you mean 'plate'?");
   EXPECT_NE(message("body.1.spin=1 rad/s").find("no entry '1'"), std::string::npos);
+  EXPECT_EQ(message("load.0.kind=traction"), "there is no array 'load' / --set 'load=[{...}]' makes one");
   EXPECT_NE(message("solver.plane.x=1").find("'plane' has no keys below it"), std::string::npos);
   EXPECT_NE(message("solver.cfl=many").find("expected a number"), std::string::npos);
   EXPECT_NE(message("solver.time=3 mm").find("not a unit of time"), std::string::npos);
