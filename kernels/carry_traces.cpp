@@ -113,9 +113,8 @@ struct NodeCarrier {
       if (o < was_last && was.candidate[o] == now.candidate[e])
         std::copy_n(from.verdict + 2 * o, 2, to.verdict + 2 * e);
     }
-    const int *const seen = was.node_segment + was.segment_start[was_first], *const seen_end =
-                                                                                 was.node_segment +
-                                                                                 was.segment_start[was_last];
+    const int* const seen = was.node_segment + was.segment_start[was_first];
+    const int* const seen_end = was.node_segment + was.segment_start[was_last];
     if (same.any_new(now.node_segment + now.segment_start[first], now.node_segment + now.segment_start[last], seen,
                      seen_end) ||
         same.any_gone(seen, seen_end)) {
