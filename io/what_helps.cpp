@@ -13,7 +13,8 @@ struct Setting {
 };
 
 constexpr Setting settings[] = {
-    {"solver.stress_update = \"usavg\"", [](const Scene& s) { return s.stress_update == StressUpdate::usavg; }},
+    {"solver.stress_update = \"usavg\"",
+     [](const Scene& s) { return s.stress_update == StressUpdate::usavg || s.stress_update == StressUpdate::musl; }},
     {"solver.shape = \"ugimp\"", [](const Scene& s) { return s.shape == ShapeFunction::ugimp; }},
     {"solver.transfer = \"flip\"", [](const Scene& s) { return s.transfer == Transfer::flip; }},
     {"solver.transfer = \"fmpm\" or \"xpic\"",
@@ -27,7 +28,9 @@ constexpr Setting settings[] = {
                           [](const Material& m) { return m.law == LawKind::neo_hookean; });
      }},
     {"contact.law = \"ignored\"",
-     [](const Scene& s) { return s.cracks.empty() || s.contact.law == ContactLaw::ignored; }},
+     [](const Scene& s) {
+       return s.cracks.empty() || s.contact.law == ContactLaw::ignored || s.contact.law == ContactLaw::interface;
+     }},
     {"a contact.law that",
      [](const Scene& s) {
        return std::none_of(s.cracks.begin(), s.cracks.end(), [&](const CrackLine& c) {

@@ -72,7 +72,8 @@ class Growth {
     extend_crack(s_.cracks, tip_.crack, tip_.last, to, first(to));
     lay_at_end();
     book(segment);
-    tip_.body = body_near(s_, to, 2 * particle_, tip_.body);
+    tip_.body = body_near(s_, to, 2 * particle_, border_width * particle_, tip_.body,
+                          [this](int body, int other) { return weaker(scene_, body, other); });
     tip_.material = scene_.bodies[static_cast<size_t>(tip_.body)].material;
     look_for_other_solids(to);
   }

@@ -8,6 +8,8 @@
 // that the fields of K_I = 1 and K_II = 1 have there: the traction on faces that are pressed together takes no part in
 // the opening, and yet the fields next to them bear it. Faces that are not in line with the tip add to J as a vector
 // along themselves; what goes through them besides, and the interaction integrals, face_integral.hpp adds.
+// The springs of an imperfect interface are a law of tractions, too: they follow the jumps of interface_jumps.hpp, and
+// delta is these.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -25,14 +27,15 @@
 namespace riven {
 
 /// Traction on the upper face of a crack that is in contact, given that of the stresses next to it; zero where the law
-/// lets the faces part or slide. `normal` points towards above.
+/// lets the faces part or slide. What the springs of an interface bear is known without these. `normal` points towards
+/// above.
 inline Vec2 contact_traction(const ContactSettings& contact, Vec2 traction, Vec2 normal) {
   const double pressure = dot(traction, normal);
   const Vec2 shear = traction - pressure * normal;
   switch (contact.law) {
-    case ContactLaw::ignored: return {};
-    case ContactLaw::bonded:
-    case ContactLaw::interface: return traction;
+    case ContactLaw::ignored:
+    case ContactLaw::interface: return {};
+    case ContactLaw::bonded: return traction;
     case ContactLaw::stick: return pressure > 0 ? traction : Vec2{};
     case ContactLaw::frictionless: return std::max(0.0, pressure) * normal;
     case ContactLaw::coulomb: {
@@ -56,15 +59,17 @@ class OwnFaces {
   static constexpr double reach() { return 1 + at_end; }
 
   /// Does a segment, or a part of it, bear tractions of a law?
-  bool bears(int k) const {
-    return !cracks_.bearing.empty() && (cracks_.bearing[k].y > 0 || cracks_.bearing[k + 1].x > 0);
-  }
+  bool bears(int k) const { return bears_by_law(k) || has_springs(k); }
 
   /// The mean of them on the upper face of a segment, Pa, each half of it as thick as it bears.
   Vec2 traction_of_law(int k) const {
-    const double each = 0.5 / task_.thickness;
-    return (each * cracks_.bearing[k].y) * traction_on(cracks_, k) +
-           (each * cracks_.bearing[k + 1].x) * traction_on(cracks_, k + 1);
+    Vec2 all = has_springs(k) ? traction_of_springs(k) : Vec2{};
+    if (bears_by_law(k)) {
+      const double each = 0.5 / task_.thickness;
+      all += (each * cracks_.bearing[k].y) * traction_on(cracks_, k) +
+             (each * cracks_.bearing[k + 1].x) * traction_on(cracks_, k + 1);
+    }
+    return all;
   }
   /// Adds what they do on a segment in line with the tip.
   void add_tractions(int k, double q) {
@@ -134,7 +139,60 @@ class OwnFaces {
     return all.cut;
   }
 
+  bool bears_by_law(int k) const {
+    return !cracks_.bearing.empty() && (cracks_.bearing[k].y > 0 || cracks_.bearing[k + 1].x > 0);
+  }
+
+  /// Is it of an interface whose faces have moved?
+  bool has_springs(int k) const {
+    return k < cracks_.jump.size() && cracks_.contact[cracks_.crack[k]].law == ContactLaw::interface;
+  }
+  Vec2 direction(int k) const {
+    const Vec2 line = cracks_.plane[k + 1] - cracks_.plane[k];
+    return line * (1 / norm(line));
+  }
+  /// Opening in the middle of a segment of an interface. Next to a tip, where jumps are those of nodes that hardly any
+  /// particle feels, it is that of the first segment clear of the tip times the root of the distance: what the springs
+  /// hold is a matter of how far the faces are apart where the contour cuts them.
+  Vec2 opening_of_springs(int k) const {
+    const int c = cracks_.crack[k];
+    for (const bool last : {false, true}) {
+      const Vec2 tip = cracks_.plane[cracks_.end_point(c, last)];
+      const double clear = near_tip * view_.lattice.h, far = distance(k, tip);
+      if (!cracks_.is_open(c, last) || far >= clear)
+        continue;
+      int at = k;
+      const int beyond = cracks_.end_point(c, !last) - int{!last};
+      while (at != beyond && distance(at, tip) < clear)
+        at += last ? -1 : 1;
+      return std::sqrt(far / distance(at, tip)) * jump_of(at);
+    }
+    return jump_of(k);
+  }
+  double distance(int k, Vec2 from) const { return norm(0.5 * (cracks_.plane[k] + cracks_.plane[k + 1]) - from); }
+  Vec2 jump_of(int k) const {
+    const Vec2 along = direction(k), jump = cracks_.jump[k];
+    return jump.x * turned(along) - jump.y * along;
+  }
+  /// On the upper face, Pa.
+  Vec2 traction_of_springs(int k) const {
+    const ContactSettings& law = cracks_.contact[cracks_.crack[k]];
+    const Vec2 along = direction(k), normal = turned(along), opening = opening_of_springs(k);
+    return -(law.normal_stiffness * dot(opening, normal)) * normal -
+           (law.shear_stiffness * dot(opening, along)) * along;
+  }
+  /// Opening at a point, where a tip has none.
+  Vec2 opening_of_springs_at(int point) const {
+    const int c = cracks_.crack[point];
+    for (const bool last : {false, true})
+      if (point == cracks_.end_point(c, last))
+        return cracks_.is_open(c, last) ? Vec2{} : opening_of_springs(point - int{last});
+    return 0.5 * (opening_of_springs(point - 1) + opening_of_springs(point));
+  }
+
   Vec2 opening_change(int k) const {
+    if (has_springs(k))
+      return opening_of_springs_at(k + 1) - opening_of_springs_at(k);
     return (cracks_.upper[k + 1] - cracks_.lower[k + 1]) - (cracks_.upper[k] - cracks_.lower[k]);
   }
   double first_length(int k) const { return norm(cracks_.plane0[k + 1] - cracks_.plane0[k]); }
@@ -193,6 +251,7 @@ class OwnFaces {
   }
 
   static constexpr double uncut = -1;
+  static constexpr double near_tip = 2;   ///< cells to a tip within which springs are not looked at
   static constexpr double at_end = 0.25;  ///< of a segment: how near to its end a cut is one of the end
 
   const Cracks& cracks_;

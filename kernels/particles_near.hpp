@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "core/state/state.hpp"
@@ -55,19 +56,24 @@ double way_before_solid(const State<Real, 2>& s, Vec2 x, Vec2 way, double reach,
   return std::max(0.0, nearest - particle);
 }
 
-/// The body of the particle nearest to x, or `otherwise` where there is none within `radius`.
-template <class Real>
-int body_near(const State<Real, 2>& s, Vec2 x, double radius, int otherwise) {
-  double least = radius;
-  int best = -1;
+/// The body of the particle nearest to x, or `otherwise` where there is none within `radius`. Of those whose nearest
+/// particles are as near, but for `margin`, that which comes before(one, other) the others.
+template <class Real, class Before>
+int body_near(const State<Real, 2>& s, Vec2 x, double radius, double margin, int otherwise, const Before& before) {
+  std::map<int, double> nearest;
   each_particle_near(s, x, radius, [&](int k) {
     const double d = norm(Vec2{s.particles.x[0][k], s.particles.x[1][k]} - x);
-    if (d < least || (d == least && best >= 0 && s.particles.id[k] < s.particles.id[best])) {
-      least = d;
-      best = k;
-    }
+    const auto [at, fresh] = nearest.try_emplace(s.particles.body[k], d);
+    at->second = std::min(at->second, d);
   });
-  return best < 0 ? otherwise : s.particles.body[best];
+  double least = radius;
+  for (const auto& [body, d] : nearest)
+    least = std::min(least, d);
+  int best = -1;
+  for (const auto& [body, d] : nearest)
+    if (d <= least + margin && (best < 0 || before(body, best)))
+      best = body;
+  return best < 0 ? otherwise : best;
 }
 
 /// Where the material that is at x now was at first, by the plane fitted to the particles within a cell of x; x plus

@@ -88,7 +88,8 @@ void check_energy(const Plan& plan, const State<Real, 2>& s) {
   const Energy& e = s.ledger.energy;
   const double limit = plan.energy_growth;
   const double grown = plan.watch_energy ? e.unaccounted() : std::min(e.numerical(), e.unaccounted());
-  const double lag = work_lag(plan, s.clock.step);
+  // work that rises as a high power of time is behind by half of what the last step has done
+  const double lag = work_lag(plan, s.clock.step) + (e.largest > 0 ? 0.5 * std::abs(s.watch.step_work) / e.largest : 0);
   const double most_given = std::max(0.2, limit), given = e.given_by_contact();
   if (plan.contact && given > most_given * e.largest)
     stop(s, fastest_particle(s.particles), "contact makes energy; the fastest particle is named",

@@ -84,6 +84,7 @@ void SimulationOf<Real>::begin() {
 template <class Real>
 void SimulationOf<Real>::step() {
   exec::Clock clock(space.on_device());
+  const double work_before = state.ledger.energy.external_work;
   for (Task& t : tasks) {
     if (t.due && !t.due(*this))
       continue;
@@ -92,6 +93,7 @@ void SimulationOf<Real>::step() {
     ++t.calls;
   }
   clock.settle();
+  state.watch.step_work = state.ledger.energy.external_work - work_before;
   state.clock.time += state.clock.dt;
   ++state.clock.step;
   check_particles(state);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace riven {
 
@@ -22,6 +24,19 @@ double distance(Vec2 x, Vec2 a, Vec2 b) {
   const Vec2 d = b - a;
   const double length2 = dot(d, d), t = length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0., 1.) : 0;
   return norm(x - a - t * d);
+}
+
+int body_of_tip(const Scene& scene, Vec2 x) {
+  int body = body_at(scene, x);
+  const double near = border_width * scene.cell / scene.bodies[static_cast<size_t>(body)].particles_per_cell;
+  constexpr int directions = 8;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2 * std::numbers::pi * i / directions;
+    const int other = body_at(scene, x + near * Vec2{std::cos(angle), std::sin(angle)});
+    if (other >= 0 && weaker(scene, other, body))
+      body = other;
+  }
+  return body;
 }
 
 /// Whether the end of a crack comes nearer than `radius` to another one, or to itself further along.
@@ -53,6 +68,17 @@ int body_at(const Scene& scene, Vec2 x) {
   return -1;
 }
 
+bool weaker(const Scene& scene, int body, int than) {
+  const auto material = [&](int b) -> const Material& {
+    return scene.materials[static_cast<size_t>(scene.bodies[static_cast<size_t>(b)].material)];
+  };
+  const auto known = [](double toughness) { return toughness > 0 ? toughness : std::numeric_limits<double>::max(); };
+  const auto strength = [&](const Material& m) {
+    return std::tuple(known(m.K_Ic), known(m.J_Ic), m.E, m.nu, m.density);
+  };
+  return strength(material(body)) < strength(material(than));
+}
+
 double junction_reach(const Scene& scene, int body) {
   // a little less than half a particle, so that an end exactly as far from an edge is a tip whatever rounding does
   return 0.499 * scene.cell / scene.bodies[static_cast<size_t>(body)].particles_per_cell;
@@ -77,7 +103,7 @@ std::vector<Tip> make_tips(const Scene& scene) {
       if (end_of(scene, c, last) != CrackEnd::tip)
         continue;
       const std::vector<Vec2>& points = scene.cracks[c].points;
-      const int b = body_at(scene, last ? points.back() : points.front());
+      const int b = body_of_tip(scene, last ? points.back() : points.front());
       const Body& body = scene.bodies[static_cast<size_t>(b)];
       Tip tip;
       tip.crack = static_cast<int>(c);

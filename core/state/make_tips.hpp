@@ -10,6 +10,13 @@ namespace riven {
 /// The body that holds a point at the start, index into Scene::bodies, or -1.
 int body_at(const Scene& scene, Vec2 x);
 
+/// A tip on the border of two bodies belongs to the weaker one: that of the lesser toughness, of the lesser stiffness
+/// where this is the same.
+bool weaker(const Scene& scene, int body, int than);
+
+/// Parts of a particle up to which a tip is on a border.
+inline constexpr double border_width = 0.1;
+
 /// Nearer than this (m) to another crack, the end of a crack in this body belongs to a junction.
 double junction_reach(const Scene& scene, int body);
 

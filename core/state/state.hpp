@@ -43,6 +43,7 @@ struct StepWatch {
   exec::Array<double> tile_worn;    ///< [tiles] J, taken by the transfer; of transfers that take some
   exec::Array<double> tile_apart;   ///< [tiles] largest difference of a particle's velocity and the grid's, m/s
   double largest_move = 0;          ///< m, this step
+  double step_work = 0;             ///< J, external work of this step
   double least_J = 1;
   Deformation deformation;
   double velocity_difference = 0;  ///< m/s, along an axis, in the last step in which it was looked at

@@ -147,6 +147,27 @@ TEST(Stops, NameTheFastestParticleWhenEnergyGrowsFromNothing) {
   }
 }
 
+/// Work of loads that rise as the third power of time rises as their eighth: what the last step has done is a third of
+/// all there is.
+TEST(Stops, AreNotOfLoadsThatRiseSmoothly) {
+  for (const StressUpdate update : updates) {
+    Scene s = resting_block();
+    s.stress_update = update;
+    const Rectangle all = std::get<Rectangle>(s.bodies[0].region);
+    for (const bool right : {false, true}) {
+      Load load = traction_on(right ? Load::Edge::right : Load::Edge::left, all);
+      load.value[0] = TimeFunction{right ? 1e3 : -1e3, [](double t) { return t * t * t; }, ""};
+      s.loads.push_back(load);
+    }
+    const ChosenSpace space;
+    Simulation m(s, space);
+    for (int n = 0; n < 40; ++n) {
+      m.step();
+      EXPECT_NO_THROW(m.take_stock()) << name_of(update) << ", step " << n;
+    }
+  }
+}
+
 /// A body at rest that is loaded at once: its first steps have more energy than the work that is booked with the moves.
 TEST(Stops, LetLoadsBeginAtOnce) {
   Scene s = resting_block();
