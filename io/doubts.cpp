@@ -216,8 +216,23 @@ void doubt_update(const Scene& s, std::vector<Doubt>& list) {
                     "try stress_update = \"usavg\", or an order of 2"});
 }
 
+/// At faces, as at borders, nodes have the velocity of particles within: a solid that gives up its own velocities for
+/// these comes apart there by the strain of about half a cell on either side.
+void doubt_interfaces(const Scene& s, std::vector<Doubt>& list) {
+  for (const CrackLine& c : s.cracks)
+    if (c.contact.value_or(s.contact).law == ContactLaw::interface && s.transfer != Transfer::flip && !s.affine &&
+        s.shape != ShapeFunction::linear) {
+      list.push_back({place(s, "crack " + c.name),
+                      "with PIC, XPIC and FMPM an interface gives way by the stress times a cell over E more than its "
+                      "springs do",
+                      "try solver.affine = true, or solver.transfer = \"flip\""});
+      return;
+    }
+}
+
 void doubt_cracks(const Scene& s, std::vector<Doubt>& list) {
   doubt_noise(s, list);
+  doubt_interfaces(s, list);
   doubt_speed(s, s.growth, "growth.speed_limit", list);
   for (size_t i = 0; i < s.cracks.size(); ++i)
     doubt_speed(s, s.cracks[i].growth, fmt::format("crack.{}.growth.speed_limit", i), list);

@@ -38,12 +38,13 @@ void doubt_cracks_that_turn(const Scene& s, const Body& b, std::vector<Doubt>& l
 /// At a border nodes have the velocity of particles within the body, so that one that spins strains there. Where stress
 /// comes last the grid gives way at once; velocities extrapolated from particles do not. A disk with a radius of 40
 /// cells whose rim moves at 0.013 of its wave speed has by FLIP 1.5 times its strain energy more in each 11 degrees of
-/// its turn, by FMPM 20 times; with usl as much as it should.
+/// its turn, by FMPM 20 times; with usl, or with gradients of velocity, as much as it should.
 void doubt_border_of_spin(const Scene& s, const Body& b, std::vector<Doubt>& list) {
   constexpr double far = 0.1;  // rad
-  if (std::fabs(b.spin) * s.end_time > far && s.stress_update != StressUpdate::usl && s.shape != ShapeFunction::linear)
+  if (std::fabs(b.spin) * s.end_time > far && s.stress_update != StressUpdate::usl && !s.affine &&
+      s.shape != ShapeFunction::linear)
     list.push_back({place(s, "body " + b.name), "it spins, and would strain at its borders by that",
-                    "try solver.stress_update = \"usl\""});
+                    "try solver.affine = true, or solver.stress_update = \"usl\""});
 }
 
 }  // namespace

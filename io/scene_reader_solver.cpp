@@ -42,9 +42,9 @@ void read_limits(const Table& root, Precision precision, Limits& l) {
 }  // namespace
 
 void read_solver(const Table& root, Scene& s) {
-  const Table t =
-      root.table("solver", {"time", "plane", "thickness", "shape", "transfer", "order", "pic_fraction", "stress_update",
-                            "cfl", "dt_max", "scatter", "deterministic", "precision", "exec", "threads"});
+  const Table t = root.table(
+      "solver", {"time", "plane", "thickness", "shape", "transfer", "order", "pic_fraction", "affine", "stress_update",
+                 "cfl", "dt_max", "scatter", "deterministic", "precision", "exec", "threads"});
   s.end_time = t.quantity("time", dimension::time, range::positive);
   s.plane = t.choice("plane", std::optional(s.plane));
   s.thickness = t.quantity("thickness", dimension::length, range::positive, s.thickness);
@@ -52,6 +52,7 @@ void read_solver(const Table& root, Scene& s) {
   s.transfer = t.choice("transfer", std::optional(s.transfer));
   s.order = t.integer("order", 1, 100, s.order);
   s.pic_fraction = t.number("pic_fraction", Range{0, 1}, s.pic_fraction);
+  s.affine = t.flag("affine", s.affine);
   s.stress_update = t.choice("stress_update", std::optional(s.stress_update));
   s.cfl = t.number("cfl", Range{0, 2, true}, s.cfl);
   s.dt_max = t.quantity("dt_max", dimension::time, range::positive, s.dt_max, "none");

@@ -73,4 +73,13 @@ decltype(auto) with_flags(F&& f, bool flag, More... more) {
   });
 }
 
+/// Whether particles carry gradients of velocity: never with linear functions (make_plan).
+template <class Shape, class F>
+decltype(auto) with_affine(bool affine, F&& f) {
+  if constexpr (!std::is_same_v<Shape, Linear>)
+    if (affine)
+      return f(std::true_type{});
+  return f(std::false_type{});
+}
+
 }  // namespace riven

@@ -34,6 +34,7 @@ void each_member(Clock& c, F&& f) {
 template <class F>
 void each_member(StepWatch& w, F&& f) {
   f("largest_move", w.largest_move);
+  f("step_work", w.step_work);
   f("least_J", w.least_J);
   f("velocity_difference", w.velocity_difference);
   f("drift", w.drift);
@@ -228,6 +229,7 @@ void visit_particles(Particles<Real, 2>& p, Visitor& f) {
   f.fixed("particles/det_F", p.J);
   all("stress", p.stress);
   f.fixed("particles/mass", p.mass);
+  all("velocity_gradient", p.C);
   all("first_position", p.x0);
   all("closed_position", p.closed);
   f.fixed("particles/body", p.body);

@@ -5,6 +5,7 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/stress_rule.hpp"
 #include "kernels/tiles.hpp"
+#include "kernels/velocity_gradient.hpp"
 #include "kernels/watch.hpp"
 
 namespace riven {
@@ -66,13 +67,6 @@ RIVEN_INLINE void gather_motion(const Block<Real, Shape>& w, int k, const Real* 
     g.set(k, updated);
 }
 
-/// Numbers of one step, the same for every particle.
-template <class Real>
-struct StepNumbers {
-  Real dt, keep, high_dt, damping;
-  bool compare;  ///< velocities of particles and grid
-};
-
 /// Kinetic energy that particles lose by what the transfer changes of v + a dt, m (v + v')/2 . (v + a dt - v'), J.
 template <class Real>
 RIVEN_INLINE void wear_off(const ParticleView<Real>& p, long first, int count, const GatheredMotion<Real>& m,
@@ -122,10 +116,41 @@ StepNumbers<Real> numbers(const State<Real, 2>& s, const TransferRule& r) {
   return {Real(s.clock.dt), Real(r.keep), Real(r.high_dt), Real(r.damping), velocities_compared(s.clock.step)};
 }
 
+/// Moments of what a block gathers, for its gradients of velocity.
+template <bool High, class Real, class Shape>
+struct AffineMotion {
+  GradientLanes<Real> acceleration, handed;
+
+  template <class Slots>
+  RIVEN_INLINE void gather(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx, Slots slots) {
+    gather_moments<2>(w, k, q, nx, slots, acceleration);
+    gather_moments<0>(w, k, High ? high : q, nx, slots, handed);
+  }
+
+  /// Both these and the motion itself, in as few readings of the nodes as may be.
+  template <class Slots>
+  RIVEN_INLINE void gather_with(const Block<Real, Shape>& w, int k, const Real* q, const Real* high, int nx,
+                                Slots slots, GatheredMotion<Real>& m) {
+    if constexpr (High) {
+      GradientLanes<Real> none;
+      gather_motion<false, High>(w, k, q, high, nx, slots, false, m, none);
+      gather(w, k, q, high, nx, slots);
+    } else {
+      const auto all = gather_from<true, 4, Second::moments>(w, k, q, nx, slots);
+      set_motion(m, k, all, all);
+      handed.set(k, all);
+      if constexpr (std::is_same_v<Slots, FourTogether>)
+        gather_moments<2>(w, k, q, nx, slots, acceleration);
+      else
+        acceleration.set(k, pair_of<2>(all));
+    }
+  }
+};
+
 struct NoUpdate {};
 
 /// `update` of the stresses, if there is one in this pass.
-template <class Shape, bool High, class Real, class Update>
+template <class Shape, bool High, bool Affine, class Real, class Update>
 void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule, const Update& update) {
   constexpr bool Stress = !std::is_same_v<Update, NoUpdate>;
   constexpr int L = exec::lanes;
@@ -133,6 +158,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule, 
   const Real *q = exec::data(g.q), *high = exec::data(g.high);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
+  const GradientView<Real> slopes = velocity_gradients(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s);
   const StepNumbers<Real> n = numbers(s, rule);
@@ -146,19 +172,26 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule, 
                              {p.vx, p.vy, Stress ? p.sxx : nullptr, Stress ? p.syy : nullptr, Stress ? p.sxy : nullptr},
                              {q, High ? high : nullptr}}};
   each_tile(space, "grid to particle", tiles, see,
-            [p, at, q, high, nx, update, n, high_gradient, together] RIVEN_KERNEL(auto stretch, long begin, long end,
-                                                                                  TileWatch<Real>& seen) RIVEN_LANE {
+            [p, slopes, at, q, high, nx, update, n, high_gradient, together] RIVEN_KERNEL(
+                auto stretch, long begin, long end, TileWatch<Real>& seen) RIVEN_LANE {
               Block<Real, Shape> w;
               GatheredMotion<Real> motion;
               GradientLanes<Real> gradient;
+              AffineMotion<High, Real, Shape> affine;
               alignas(64) Real dx[L], dy[L];
               for (long first = begin; first < end; first += L) {
                 const int count = static_cast<int>(std::min<long>(L, end - first));
                 ask_ahead(stretch, first);
-                w.template weigh<Stress>(at, first);
-                each_gathered<Stress>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
+                w.template weigh<Stress, Affine>(at, first);
+                each_gathered<Stress || Affine>(stretch, w, first, count, together, [&](int k, auto slots) RIVEN_LANE {
+                  if constexpr (Affine && !Stress)
+                    return affine.gather_with(w, k, q, high, nx, slots, motion);
                   gather_motion<Stress, High>(w, k, q, high, nx, slots, high_gradient, motion, gradient);
+                  if constexpr (Affine)
+                    affine.gather(w, k, q, high, nx, slots);
                 });
+                if constexpr (Affine)
+                  update_gradient(slopes, p.mass, w, first, count, affine.acceleration, affine.handed, n, seen.worn);
                 find_move(p, first, count, motion, n, dx, dy, seen);
                 update_velocity(p, first, count, motion, n, seen);
                 exec::for_lanes(count, [&](int k) RIVEN_LANE {
@@ -175,7 +208,7 @@ void run(const exec::Space& space, State<Real, 2>& s, const TransferRule& rule, 
     watch_J(s);
 }
 
-template <class Shape, bool High, class Real>
+template <class Shape, bool High, bool Affine, class Real>
 void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
   constexpr int L = exec::lanes;
   const Grid<Real>& g = s.grid;
@@ -183,6 +216,7 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   Real* again = exec::data(s.grid.again);
   const int nx = s.grid.lattice.nx;
   const ParticleView<Real> p = view(s.particles);
+  const GradientView<Real> slopes = velocity_gradients(s.particles);
   const Positions<Real> at = positions(s);
   const CrossingSlots extra = crossing_slots(s, slots_are_shared(space, plan.scatter));
   const StepNumbers<Real> n = numbers(s, rule);
@@ -191,42 +225,47 @@ void run_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, co
   const TileRun<Real> tiles{s.particles.tiles, s.grid.lattice, extra, {{p.x, p.y}, {p.vx, p.vy, p.mass}, {q, again}}};
   scatter_tiles<false>(
       space, "velocities, extrapolate again", plan.scatter, tiles, static_cast<Real*>(nullptr), again, see,
-      [p, at, extra, q, high, again, nx, n, together, by_acceleration] RIVEN_KERNEL(
+      [p, slopes, at, extra, q, high, again, nx, n, together, by_acceleration] RIVEN_KERNEL(
           auto stretch, long begin, long end, const NodeTarget<Real>& to, TileWatch<Real>& seen) RIVEN_LANE {
         Block<Real, Shape> w;
         GatheredMotion<Real> motion{};
         GradientLanes<Real> none;
+        AffineMotion<High, Real, Shape> affine;
         for (long first = begin; first < end; first += L) {
           const int count = static_cast<int>(std::min<long>(L, end - first));
           ask_ahead(stretch, first);
-          w.template weigh<false>(at, first);
+          w.template weigh<false, Affine>(at, first);
           const auto take = [&](int k, auto slots) RIVEN_LANE {
-            gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
+            if constexpr (Affine)
+              affine.gather_with(w, k, q, high, nx, slots, motion);
+            else
+              gather_motion<false, High>(w, k, q, high, nx, slots, false, motion, none);
           };
           each_four(stretch, w, first, count, together, take, [&](int k) RIVEN_LANE {
-            if (by_acceleration)
+            if (!Affine && by_acceleration)
               set_acceleration(motion, k, gather_four<false, 2>(w, k, q + 2, nx));
             else
               take(k, FourTogether{});
           });
+          if constexpr (Affine)
+            update_gradient(slopes, p.mass, w, first, count, affine.acceleration, affine.handed, n, seen.worn);
           update_velocity(p, first, count, motion, n, seen);
-          const auto momentum = [&](long i) RIVEN_LANE {
-            return Quad<Real>{p.mass[i] * p.vx[i], p.mass[i] * p.vy[i], Real(0), Real(0)};
-          };
+          const auto momentum = [&](long i) RIVEN_LANE { return momentum_of(p, i, Real(0)); };
           each_four(
               stretch, w, first, count, together,
               [&](int k, auto slots) RIVEN_LANE {
-                const Quad<Real> A = momentum(first + k), zero{};
+                const Quad<Real> A = momentum(first + k);
+                const MomentumSlope<Affine, Real> slope(slopes, p.mass[first + k], first + k);
                 if constexpr (std::is_pointer_v<decltype(slots)>)
-                  scatter_slots<false, false>(w, k, Real(0), A, zero, zero, to, slots, extra,
-                                              static_cast<Real*>(nullptr), again);
+                  scatter_slots<false, Affine, Second::moments>(w, k, Real(0), A, slope.x, slope.y, to, slots, extra,
+                                                                static_cast<Real*>(nullptr), again);
                 else
-                  scatter<false, false>(w, k, Real(0), A, zero, zero, to);
+                  scatter<false, Affine, Second::moments>(w, k, Real(0), A, slope.x, slope.y, to);
               },
               [&](int k) RIVEN_LANE {
                 const long i = first + k;
                 const Quad<Real> A[4]{momentum(i), momentum(i + 1), momentum(i + 2), momentum(i + 3)};
-                scatter_four(w, k, A, to);
+                scatter_momenta_of_four<Affine>(w, k, A, slopes, p.mass, first, to);
               });
         }
       });
@@ -239,13 +278,16 @@ template <class Real>
 void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule,
                       bool with_stress) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(rule.high, [&](auto high) {
-      using Shape = typename decltype(shape)::type;
-      if (with_stress)
-        with_stress_rule<false>(plan.law, s,
-                                [&](const auto& update) { run<Shape, decltype(high)::value>(space, s, rule, update); });
-      else
-        run<Shape, decltype(high)::value>(space, s, rule, NoUpdate{});
+    using Shape = typename decltype(shape)::type;
+    with_affine<Shape>(plan.affine, [&](auto affine) {
+      with_flag(rule.high, [&](auto high) {
+        constexpr bool High = decltype(high)::value, Affine = decltype(affine)::value;
+        if (with_stress)
+          with_stress_rule<false>(plan.law, s,
+                                  [&](const auto& update) { run<Shape, High, Affine>(space, s, rule, update); });
+        else
+          run<Shape, High, Affine>(space, s, rule, NoUpdate{});
+      });
     });
   });
 }
@@ -253,8 +295,11 @@ void grid_to_particle(const exec::Space& space, const Plan& plan, State<Real, 2>
 template <class Real>
 void grid_to_particle_again(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const TransferRule& rule) {
   with_shape(plan.shape, [&](auto shape) {
-    with_flag(rule.high, [&](auto high) {
-      run_again<typename decltype(shape)::type, decltype(high)::value>(space, plan, s, rule);
+    using Shape = typename decltype(shape)::type;
+    with_affine<Shape>(plan.affine, [&](auto affine) {
+      with_flag(rule.high, [&](auto high) {
+        run_again<Shape, decltype(high)::value, decltype(affine)::value>(space, plan, s, rule);
+      });
     });
   });
 }

@@ -23,6 +23,13 @@ struct TransferRule {
   double damping = 0;          ///< particle damping, 1/s
 };
 
+/// Numbers of one step, the same for every particle.
+template <class Real>
+struct StepNumbers {
+  Real dt, keep, high_dt, damping;
+  bool compare;  ///< velocities of particles and grid
+};
+
 TransferRule transfer_rule(const Plan&, double pic_fraction, double particle_damping, double dt);
 
 /// Velocities and positions in one pass, and stresses too (USL).

@@ -20,7 +20,7 @@ namespace {
 
 /// next += S^T M S term, in one pass over the particles; over those that see a node across a crack, where the full mass
 /// matrix has the others.
-template <class Shape, bool OnlyCrossing, class Real>
+template <class Shape, bool OnlyCrossing, bool Affine, class Real>
 void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const Real* term) {
   constexpr int L = exec::lanes;
   Real* next = exec::data(s.grid.next);
@@ -39,28 +39,40 @@ void smooth(const exec::Space& space, const Plan& plan, State<Real, 2>& s, const
                          for (long first = begin; first < end; first += L) {
                            const int count = static_cast<int>(std::min<long>(L, end - first));
                            ask_ahead(stretch, first);
-                           w.template weigh<false>(at, first);
+                           w.template weigh<false, Affine>(at, first);
                            const auto momentum = [&](int k, auto slots) RIVEN_LANE {
-                             return mass[first + k] * gather_from<false, 4>(w, k, term, nx, slots).value;
+                             auto g = gather_from<Affine, 4, Second::moments>(w, k, term, nx, slots);
+                             g.value = mass[first + k] * g.value;
+                             if constexpr (Affine) {
+                               g.dx = mass[first + k] * inverse_of(w.xx[k]) * g.dx;
+                               g.dy = mass[first + k] * inverse_of(w.yy[k]) * g.dy;
+                             }
+                             return g;
                            };
                            const auto one = [&](int k, auto slots) RIVEN_LANE {
                              constexpr bool crosses = std::is_pointer_v<decltype(slots)>;
                              if constexpr (OnlyCrossing && !crosses)
                                return;
-                             const Quad<Real> mv = momentum(k, slots), zero{};
+                             const Gathered<Real> mv = momentum(k, slots);
                              if constexpr (crosses)
-                               scatter_slots<false, false>(w, k, Real(0), mv, zero, zero, to, slots, extra,
-                                                           static_cast<Real*>(nullptr), next);
+                               scatter_slots<false, Affine, Second::moments>(w, k, Real(0), mv.value, mv.dx, mv.dy, to,
+                                                                             slots, extra, static_cast<Real*>(nullptr),
+                                                                             next);
                              else
-                               scatter<false, false>(w, k, Real(0), mv, zero, zero, to);
+                               scatter<false, Affine, Second::moments>(w, k, Real(0), mv.value, mv.dx, mv.dy, to);
                            };
                            if constexpr (OnlyCrossing)
                              each_particle<Shape>(stretch, first, count, one);
                            else
                              each_four(stretch, w, first, count, together, one, [&](int k) RIVEN_LANE {
-                               const Quad<Real> mv[4]{momentum(k, nullptr), momentum(k + 1, nullptr),
-                                                      momentum(k + 2, nullptr), momentum(k + 3, nullptr)};
-                               scatter_four(w, k, mv, to);
+                               const Gathered<Real> mv[4]{momentum(k, nullptr), momentum(k + 1, nullptr),
+                                                          momentum(k + 2, nullptr), momentum(k + 3, nullptr)};
+                               const Quad<Real> A[4]{mv[0].value, mv[1].value, mv[2].value, mv[3].value};
+                               if constexpr (Affine)
+                                 scatter_moments_of_four(w, k, A, {mv[0].dx, mv[1].dx, mv[2].dx, mv[3].dx},
+                                                         {mv[0].dy, mv[1].dy, mv[2].dy, mv[3].dy}, to);
+                               else
+                                 scatter_four(w, k, A, to);
                              });
                          }
                        });
@@ -155,7 +167,11 @@ void higher_orders(const exec::Space& space, const Plan& plan, State<Real, 2>& s
       const Real* term = exec::data(std::as_const(given ? g.q : g.term));
       if (passes) {
         exec::parallel_zero(space, "clear term", g.next);
-        with_flag(full, [&](auto rest) { smooth<Shape, decltype(rest)::value>(space, plan, s, term); });
+        with_affine<Shape>(plan.affine, [&](auto affine) {
+          with_flag(full, [&](auto rest) {
+            smooth<Shape, decltype(rest)::value, decltype(affine)::value>(space, plan, s, term);
+          });
+        });
       }
       with_flags(
           [&](auto is_first, auto is_last, auto has_full, auto has_passes) {

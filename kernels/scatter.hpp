@@ -82,8 +82,8 @@ RIVEN_INLINE void add_row(Real* m, const Quad<Real>& row) {
     add(m[i], row[i], in_team);
 }
 
-/// Adds to each node of particle k:  mass S  and  S A + dS/dx B + dS/dy C.
-template <bool Mass, bool Gradient, class Real, class Shape>
+/// Adds to each node of particle k:  mass S  and  S A + dS/dx B + dS/dy C; with other second weights by these.
+template <bool Mass, bool Gradient, Second Of = Second::gradients, class Real, class Shape>
 RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
                           const Quad<Real>& C, const NodeTarget<Real>& to) {
   constexpr int N = Shape::width;
@@ -93,11 +93,11 @@ RIVEN_INLINE void scatter(const Block<Real, Shape>& w, int k, Real mass, const Q
   for (int j = 0; j < N; ++j, q += 4L * to.stride) {
     Quad<Real> row = w.sy[j][k] * A;
     if constexpr (Gradient) {
-      row += w.gy[j][k] * C;
+      row += w.template second_y<Of>(j, k) * C;
       const Quad<Real> across = w.sy[j][k] * B;
 #pragma GCC unroll 3
       for (int i = 0; i < N; ++i)
-        add_quad<Real>(q + 4 * i, w.sx[i][k] * row + w.gx[i][k] * across);
+        add_quad<Real>(q + 4 * i, w.sx[i][k] * row + w.template second_x<Of>(i, k) * across);
     } else {
 #pragma GCC unroll 3
       for (int i = 0; i < N; ++i)
@@ -133,6 +133,33 @@ RIVEN_INLINE void scatter_four(const Block<Real, Shape>& w, int k, const Quad<Re
   }
 }
 
+/// The same with moments: adds  S A + S (x - x_p) B + S (y - y_p) C.
+template <class Real, class Shape>
+RIVEN_INLINE void scatter_moments_of_four(const Block<Real, Shape>& w, int k, const Quad<Real> (&A)[4],
+                                          const Quad<Real> (&B)[4], const Quad<Real> (&C)[4],
+                                          const NodeTarget<Real>& to) {
+  constexpr int N = Shape::width;
+  const int first = to.at(w.ix[k], w.iy[k]);
+  Real* q = to.q + 4L * first;
+#pragma GCC unroll 3
+  for (int j = 0; j < N; ++j, q += 4L * to.stride) {
+    Quad<Real> row[4], across[4];
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      row[p] = w.sy[j][k + p] * A[p] + w.my[j][k + p] * C[p];
+      across[p] = w.sy[j][k + p] * B[p];
+    }
+#pragma GCC unroll 3
+    for (int i = 0; i < N; ++i) {
+      Quad<Real> sum = w.sx[i][k] * row[0] + w.mx[i][k] * across[0];
+#pragma GCC unroll 3
+      for (int p = 1; p < 4; ++p)
+        sum += w.sx[i][k + p] * row[p] + w.mx[i][k + p] * across[p];
+      add_quad<Real>(q + 4 * i, sum);
+    }
+  }
+}
+
 /// Adds to the last two values of each node of lanes k .. k + 3, which have the same nodes,  S f + dS/dx X + dS/dy Y.
 /// A vector holds one number of all four; `f`, `X` and `Y` are those of the two values.
 template <class Real, class Shape>
@@ -154,7 +181,7 @@ RIVEN_INLINE void scatter_forces_of_four(const Block<Real, Shape>& w, int k, con
 }
 
 /// put(n, part, mass) for each node of particle k, with what `scatter` adds to it.
-template <bool Mass, bool Gradient, class Real, class Shape, class Put>
+template <bool Mass, bool Gradient, Second Of, class Real, class Shape, class Put>
 RIVEN_INLINE void each_part(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
                             const Quad<Real>& C, const Put& put) {
   constexpr int N = Shape::width;
@@ -162,14 +189,14 @@ RIVEN_INLINE void each_part(const Block<Real, Shape>& w, int k, Real mass, const
   for (int j = 0; j < N; ++j) {
     Quad<Real> row = w.sy[j][k] * A, across{};
     if constexpr (Gradient) {
-      row += w.gy[j][k] * C;
+      row += w.template second_y<Of>(j, k) * C;
       across = w.sy[j][k] * B;
     }
     const Real m = mass * w.sy[j][k];
 #pragma GCC unroll 3
     for (int i = 0; i < N; ++i)
       if constexpr (Gradient)
-        put(j * N + i, w.sx[i][k] * row + w.gx[i][k] * across, m * w.sx[i][k]);
+        put(j * N + i, w.sx[i][k] * row + w.template second_x<Of>(i, k) * across, m * w.sx[i][k]);
       else
         put(j * N + i, w.sx[i][k] * row, m * w.sx[i][k]);
   }
@@ -177,12 +204,12 @@ RIVEN_INLINE void each_part(const Block<Real, Shape>& w, int k, Real mass, const
 
 /// The same as `scatter` into a tile's own buffer for a particle that sees some nodes across cracks: those are slots of
 /// the grid.
-template <bool Mass, bool Gradient, class Real, class Shape>
+template <bool Mass, bool Gradient, Second Of = Second::gradients, class Real, class Shape>
 RIVEN_OUTLINE void scatter_apart(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A,
                                  const Quad<Real>& B, const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
                                  const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
   const int first = to.at(w.ix[k], w.iy[k]);
-  each_part<Mass, Gradient>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) {
+  each_part<Mass, Gradient, Of>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) {
     const int slot = slots[n];
     if (slot < extra.nodes) {
       const long at = first + n / Shape::width * to.stride + n % Shape::width;
@@ -199,13 +226,13 @@ RIVEN_OUTLINE void scatter_apart(const Block<Real, Shape>& w, int k, Real mass, 
 }
 
 /// The same as `scatter` for a particle that sees some nodes across cracks.
-template <bool Mass, bool Gradient, class Real, class Shape>
+template <bool Mass, bool Gradient, Second Of = Second::gradients, class Real, class Shape>
 RIVEN_INLINE void scatter_slots(const Block<Real, Shape>& w, int k, Real mass, const Quad<Real>& A, const Quad<Real>& B,
                                 const Quad<Real>& C, const NodeTarget<Real>& to, const int* slots,
                                 const CrossingSlots& extra, Real* grid_mass, Real* grid_q) {
   if (to.q != grid_q)
-    return scatter_apart<Mass, Gradient>(w, k, mass, A, B, C, to, slots, extra, grid_mass, grid_q);
-  each_part<Mass, Gradient>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) RIVEN_LANE {
+    return scatter_apart<Mass, Gradient, Of>(w, k, mass, A, B, C, to, slots, extra, grid_mass, grid_q);
+  each_part<Mass, Gradient, Of>(w, k, mass, A, B, C, [&](int n, const Quad<Real>& part, Real m) RIVEN_LANE {
     quad_at<Real>(grid_q + 4L * slots[n]) += part;
     if constexpr (Mass)
       grid_mass[slots[n]] += m;

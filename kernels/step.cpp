@@ -138,7 +138,7 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(p.fracture, "J and K", "J", find_j_and_k<Real>);
   add(fields, "body force and damping sums", p.body_force ? "body force" : "grid damping", book_fields<Real>);
   add(p.particle_damping, "particle damping sums", "particle damping",
-      [](Simulation& m) { book_particle_damping(m.space, m.particle_damping(), m.state); });
+      [](Simulation& m) { book_particle_damping(m.space, m.plan, m.particle_damping(), m.state); });
   add(p.higher_order() && p.order > 1, "higher orders", "higher orders", [](Simulation& m) {
     higher_orders(m.space, m.plan, m.state, [&](bool last) {
       if (m.plan.contact && (!m.plan.contact_waits || m.contact_watch.on))

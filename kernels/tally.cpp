@@ -8,6 +8,7 @@
 #include "core/state/tractions.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/law_state.hpp"
+#include "kernels/velocity_gradient.hpp"
 
 namespace riven {
 
@@ -116,6 +117,34 @@ exec::Array<ChunkSums> sum_particles(const exec::Space& space, const Particles<R
   return part;
 }
 
+/// What gradients of velocity add to kinetic energy, J, and angular momentum, kg m^2/s (velocity_gradient.hpp).
+template <class Shape, class Real>
+Sums sum_gradients_by(const exec::Space& space, const State<Real, 2>& s) {
+  const auto slopes = velocity_gradients(s.particles);
+  const Real* mass = exec::data(s.particles.mass);
+  const Positions<Real> at = positions(s);
+  const long n = s.particles.count(), blocks = (n + exec::lanes - 1) / exec::lanes;
+  return exec::parallel_reduce<Sums>(space, "tally: gradients of velocity", blocks, [=] RIVEN_KERNEL(long block) {
+    const long first = block * exec::lanes;
+    const int count = static_cast<int>(std::min<long>(exec::lanes, n - first));
+    Block<Real, Shape> w;
+    w.template weigh<false, true>(at, first);
+    Sums t;
+    for (int k = 0; k < count; ++k) {
+      const double m = mass[first + k];
+      const Mat2<Real> C = slopes.of(first + k);
+      t.kinetic += 0.5 * m * product_of(w, k, C, C);
+      t.angular += m * (w.xx[k] * C.yx - w.yy[k] * C.xy);
+    }
+    return t;
+  });
+}
+
+template <class Real>
+Sums sum_gradients(const exec::Space& space, const Plan& plan, const State<Real, 2>& s) {
+  return with_shape(plan.shape, [&](auto shape) { return sum_gradients_by<typename decltype(shape)::type>(space, s); });
+}
+
 /// J, of motion of 1e-12 of a cell in a step: what is less, as where a grip's weight on a node is a rounding, is none.
 template <class Real>
 double of_rounding(const State<Real, 2>& s) {
@@ -157,7 +186,9 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
       return sum_particles<Law>(space, p, OneLaw<Law>{of.table});
     return sum_particles<Law>(space, p, LawOfEach<Law>{of});
   });
-  const Sums t = total_of(part, s.watch.deformation);
+  Sums t = total_of(part, s.watch.deformation);
+  if (plan.affine)
+    t += sum_gradients(space, plan, s);
   Energy& e = s.ledger.energy;
   Momentum& b = s.ledger.momentum;
   e.kinetic = t.kinetic;
@@ -177,21 +208,22 @@ void tally(const exec::Space& space, const Plan& plan, State<Real, 2>& s) {
 }
 
 template <class Real>
-void book_particle_damping(const exec::Space& space, double damping, State<Real, 2>& s) {
+void book_particle_damping(const exec::Space& space, const Plan& plan, double damping, State<Real, 2>& s) {
   const ParticleReads<Real> p = reads(s.particles);
-  const Sums t =
-      exec::parallel_reduce<Sums>(space, "particle damping sums", s.particles.count(), [=] RIVEN_KERNEL(long i) {
-        const double m = p.mass[i], vx = p.vx[i], vy = p.vy[i];
-        return Sums{0.5 * m * (vx * vx + vy * vy), 0, m * vx, m * vy, m * (p.x[i] * vy - p.y[i] * vx), 0, 0};
-      });
+  Sums t = exec::parallel_reduce<Sums>(space, "particle damping sums", s.particles.count(), [=] RIVEN_KERNEL(long i) {
+    const double m = p.mass[i], vx = p.vx[i], vy = p.vy[i];
+    return Sums{0.5 * m * (vx * vx + vy * vy), 0, m * vx, m * vy, m * (p.x[i] * vy - p.y[i] * vx), 0, 0};
+  });
+  if (plan.affine)
+    t += sum_gradients(space, plan, s);
   const double d = damping * s.clock.dt;
   s.ledger.energy.damping += 2 * d * (1 - 0.5 * d) * t.kinetic;
   s.ledger.momentum.impulse -= d * Vec2{t.px, t.py};
   s.ledger.momentum.turn(-d * t.angular);
 }
 
-#define RIVEN_TALLY(Real)                                                           \
-  template void book_particle_damping(const exec::Space&, double, State<Real, 2>&); \
+#define RIVEN_TALLY(Real)                                                                        \
+  template void book_particle_damping(const exec::Space&, const Plan&, double, State<Real, 2>&); \
   template void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 RIVEN_EACH_REAL(RIVEN_TALLY)
 #undef RIVEN_TALLY

@@ -14,7 +14,7 @@ void tally(const exec::Space&, const Plan&, State<Real, 2>&);
 
 /// Books the impulse and the energy that damping of the particles' own velocities takes in this step.
 template <class Real>
-void book_particle_damping(const exec::Space&, double damping, State<Real, 2>&);
+void book_particle_damping(const exec::Space&, const Plan&, double damping, State<Real, 2>&);
 
 }  // namespace RIVEN_SIDE
 

@@ -40,14 +40,23 @@ void require_walls_for_bsplines(const Scene& scene) {
   }
 }
 
+/// Linear functions have no moments at a node, where gradients would be without bound.
+void require_moments(const Scene& scene) {
+  if (scene.affine && scene.shape == ShapeFunction::linear)
+    fail({Exit::bad_input, "linear functions carry no gradients of velocity", place(scene, "solver.affine"), "true",
+          "false with shape = \"linear\"", "shape = \"ugimp\" or \"bspline\""});
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene) {
   require_walls_for_bsplines(scene);
+  require_moments(scene);
   Plan p;
   p.shape = scene.shape;
   p.transfer = scene.transfer;
   p.order = scene.transfer == Transfer::xpic || scene.transfer == Transfer::fmpm ? scene.order : 1;
+  p.affine = scene.affine;
   p.update = scene.stress_update;
   p.scatter = scene.deterministic ? ScatterKind::ordered : scene.scatter;
   p.watch_energy = scene.cfl > 1;
@@ -110,6 +119,7 @@ std::vector<std::string> Plan::effects() const {
   say(body_force, "body force");
   say(grid_damping, "grid damping");
   say(particle_damping, "particle damping");
+  say(affine, "affine");
   say(higher_order() && order > 1, "higher orders");
   say(watch_energy, "watched energy");
   return names;

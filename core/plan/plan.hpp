@@ -40,6 +40,7 @@ struct Plan {
   bool cohesive = false;          ///< the latter
   bool grips = false;
   bool constraints = false;  ///< any prescribed grid velocity: grips, fixed nodes, symmetry
+  bool affine = false;       ///< particles carry the gradient of their velocity
   bool loads = false;
   bool body_force = false;
   bool grid_damping = false;
@@ -58,8 +59,9 @@ struct Plan {
   /// a tenth.
   bool cracks_move_again() const { return extrapolate_again() && !contact_slides; }
   bool higher_order() const { return transfer == Transfer::xpic || transfer == Transfer::fmpm; }
-  /// From the third order on, a product with the full mass matrix costs less than passes over the particles.
-  bool full_mass() const { return higher_order() && order > 2; }
+  /// From the third order on, a product with the full mass matrix costs less than passes over the particles; gradients
+  /// of velocity are not in it.
+  bool full_mass() const { return higher_order() && order > 2 && !affine; }
   bool keeps_F() const { return law != LawChoice::linear_elastic; }
   bool keeps_J() const { return law == LawChoice::linear_elastic; }
   bool needs_contact_sums() const { return contact_volume || contact_position || contact_area; }

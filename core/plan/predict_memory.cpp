@@ -15,6 +15,8 @@ double bytes_of_particle(const Plan& p, double real) {
   constexpr double position = 2 * sizeof(double), body_and_id = 1 + sizeof(int);
   double bytes = position + body_and_id + real * (2 + 3 + 1);  // velocity, stress, mass
   bytes += sizeof(double) * (p.keeps_F() ? 4 : 1);
+  if (p.affine)
+    bytes += 4 * real;
   if (p.first_positions())
     bytes += position;
   if (p.first_gaps)

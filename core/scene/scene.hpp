@@ -250,6 +250,7 @@ struct Scene {
   Transfer transfer = Transfer::flip;
   int order = 2;            ///< XPIC(k), FMPM(k)
   double pic_fraction = 0;  ///< transfer = pic
+  bool affine = false;      ///< particles carry the gradient of their velocity
   StressUpdate stress_update = StressUpdate::usavg;
   double cfl = 0.4;
   double dt_max = std::numeric_limits<double>::infinity();

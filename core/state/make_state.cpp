@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/math/tensor.hpp"
 #include "core/state/bodies_at_cracks.hpp"
 #include "core/state/first_gaps.hpp"
 #include "core/state/junctions.hpp"
@@ -46,6 +47,7 @@ void make_tables(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
 
 struct Seed {
   Vec2 x, v;
+  Mat2<double> C;  ///< gradient of v
   double mass;
   int body;
 };
@@ -71,6 +73,28 @@ std::vector<Vec2> field_velocities(const Scene& scene, const Body& body, const s
   return all;
 }
 
+/// Its gradients, from one edge of each particle to the other: a jump of the field is then one within a particle.
+std::vector<Mat2<double>> field_gradients(const Scene& scene, const Body& body, const std::vector<Vec2>& points,
+                                          double edge) {
+  const auto differences = [&](Vec2 half) {
+    std::vector<Vec2> ahead = points, behind = points;
+    for (size_t i = 0; i < points.size(); ++i) {
+      ahead[i] += half;
+      behind[i] -= half;
+    }
+    std::vector<Vec2> v = field_velocities(scene, body, ahead);
+    const std::vector<Vec2> before = field_velocities(scene, body, behind);
+    for (size_t i = 0; i < points.size(); ++i)
+      v[i] = (1 / edge) * (v[i] - before[i]);
+    return v;
+  };
+  const std::vector<Vec2> of_x = differences({0.5 * edge, 0}), of_y = differences({0, 0.5 * edge});
+  std::vector<Mat2<double>> all(points.size());
+  for (size_t i = 0; i < points.size(); ++i)
+    all[i] = {of_x[i].x, of_y[i].x, of_x[i].y, of_y[i].y};
+  return all;
+}
+
 /// Particles of all bodies, with their first velocities.
 std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
   std::vector<Seed> seeds;
@@ -88,9 +112,12 @@ std::vector<Seed> lay_bodies(const Scene& scene, const Lattice& lattice) {
     const double mass = scene.materials[static_cast<size_t>(body.material)].density * edge * edge *
                         (body.thickness > 0 ? body.thickness : scene.thickness);
     const std::vector<Vec2> field = field_velocities(scene, body, points);
+    const std::vector<Mat2<double>> slope =
+        scene.affine ? field_gradients(scene, body, points, edge) : std::vector<Mat2<double>>(points.size());
+    const Mat2<double> spin{0, -body.spin, body.spin, 0};
     for (size_t i = 0; i < points.size(); ++i)
-      seeds.push_back(
-          {points[i], body.velocity + body.spin * turned(points[i] - center) + field[i], mass, static_cast<int>(b)});
+      seeds.push_back({points[i], body.velocity + body.spin * turned(points[i] - center) + field[i], spin + slope[i],
+                       mass, static_cast<int>(b)});
   }
   return seeds;
 }
@@ -119,6 +146,9 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       a.resize(n);
   if (plan.keeps_J())
     p.J.resize(n);
+  if (plan.affine)
+    for (auto& a : p.C)
+      a.resize(n);
   for (long i = 0; i < n; ++i) {
     const Seed& seed = seeds[static_cast<size_t>(i)];
     p.x[0][i] = seed.x.x;
@@ -132,6 +162,12 @@ void make_state(const Scene& scene, const Plan& plan, State<Real, 2>& s) {
       p.F[0][i] = p.F[3][i] = 1;
     if (plan.keeps_J())
       p.J[i] = 1;
+    if (plan.affine) {
+      p.C[0][i] = Real(seed.C.xx);
+      p.C[1][i] = Real(seed.C.xy);
+      p.C[2][i] = Real(seed.C.yx);
+      p.C[3][i] = Real(seed.C.yy);
+    }
     s.particle_mass = std::max(s.particle_mass, seed.mass);
   }
   if (plan.cracks) {
@@ -215,6 +251,7 @@ std::vector<ArrayReport> list_arrays(const State<Real, 2>& s) {
   add("particles: det F", p.J);
   add("particles: stress", p.stress[0], p.stress[1], p.stress[2]);
   add("particles: mass", p.mass);
+  add("particles: velocity gradient", p.C[0], p.C[1], p.C[2], p.C[3]);
   add("particles: first position", p.x0[0], p.x0[1]);
   add("particles: closed position", p.closed[0], p.closed[1]);
   add("particles: body", p.body);

@@ -33,6 +33,7 @@ struct Particles {
   exec::Array<double> J;                ///< det F (laws that do not keep F)
   exec::Array<Real> stress[symmetric];  ///< Kirchhoff stress over reference density, [xx yy xy], m^2/s^2
   exec::Array<Real> mass;               ///< kg
+  exec::Array<Real> C[tensor];          ///< gradient of velocity [C11 C12 C21 C22], 1/s (solver.affine)
   exec::Array<double> x0[Dim];          ///< first position, m (displacement-based contact, probes)
   exec::Array<double> closed[Dim];      ///< where it would be at first with gaps closed, m (first_gaps.hpp)
   exec::Array<std::uint8_t> body;       ///< index into Scene::bodies
@@ -58,6 +59,8 @@ struct Particles {
     for (auto& a : stress)
       some(a);
     some(mass);
+    for (auto& a : C)
+      some(a);
     for (auto& a : x0)
       some(a);
     for (auto& a : closed)

@@ -78,6 +78,9 @@ TEST(Doubts, NameBodiesThatSpinAndStrainByThat) {
   s.stress_update = StressUpdate::usl;
   EXPECT_TRUE(doubts(s).empty());
   s.stress_update = StressUpdate::usavg;
+  s.affine = true;
+  EXPECT_TRUE(doubts(s).empty());
+  s.affine = false;
   s.bodies[0].spin = 0.05 / s.end_time;
   EXPECT_TRUE(doubts(s).empty());
 }
@@ -90,6 +93,16 @@ TEST(Doubts, NameCracksThatTurnFarOnFewParticles) {
   s.bodies[0].spin = -0.8 / s.end_time;
   expect_doubt(s, "body plate", "46 degrees");
   s.bodies[0].particles_per_cell = 3;
+  EXPECT_TRUE(doubts(s).empty());
+}
+
+TEST(Doubts, NameInterfacesThatFmpmLetsGive) {
+  Scene s = sound_scene();
+  s.contact = {ContactLaw::interface, 0, 1e12, 1e12};
+  EXPECT_TRUE(doubts(s).empty());
+  s.transfer = Transfer::fmpm;
+  expect_doubt(s, "crack edge", "an interface gives way");
+  s.affine = true;
   EXPECT_TRUE(doubts(s).empty());
 }
 

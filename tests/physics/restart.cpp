@@ -90,6 +90,12 @@ TEST(Restart, IsExactInFloat) {
   expect_exact<float>(growing(), 240, 6, {{1, 2}}, 2);
 }
 
+TEST(Restart, IsExactWithGradientsOfVelocity) {
+  Scene s = growing();
+  s.affine = true;
+  expect_exact<double>(s, 120, 5, both, 8);
+}
+
 TEST(Restart, IsExactWithACohesiveZone) {
   expect_exact<double>(pulled_apart(), 300, 7, both, 3);
 }

@@ -128,6 +128,8 @@ TEST(Spaces, AgreeOnASolidBlock) {
     }
   };
   expect_same_everywhere(s, pulsate, 1e-12);
+  s.affine = true;
+  expect_same_everywhere(s, pulsate, 1e-12);
 }
 
 /// The plate of Nairn and Aimene, section 3, with a level crack from its left edge to its middle and an upright one
@@ -166,6 +168,12 @@ const auto push_together = [](auto& m) {
 
 TEST(Spaces, AgreeOnAPlateWithCrossingCracks) {
   expect_same_everywhere(sent_plate(ContactLaw::ignored), push_together, 1e-12);
+}
+
+TEST(Spaces, AgreeOnAPlateWithCrossingCracksAndGradientsOfVelocity) {
+  Scene s = sent_plate(ContactLaw::frictionless);
+  s.affine = true;
+  expect_same_everywhere(s, push_together, 1e-8);
 }
 
 TEST(Spaces, AgreeOnAPlateWithCrossingCracksInContact) {
