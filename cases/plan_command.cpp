@@ -10,6 +10,7 @@
 #include "cases/commands.hpp"
 #include "cases/plan_costs.hpp"
 #include "core/plan/explain.hpp"
+#include "core/plan/predict_memory.hpp"
 #include "core/scene/names.hpp"
 #include "core/state/make_state.hpp"
 #include "io/progress.hpp"
@@ -48,6 +49,9 @@ void print_arrays(const SimulationOf<Real>& m) {
   fmt::print("  {:<34} {:>12}       {:>10.2f} MiB, {:.0f} bytes per particle\n", "in all", "",
              static_cast<double>(total) / (1 << 20),
              static_cast<double>(total) / static_cast<double>(m.state.particles.count()));
+  const double working = predict_memory(m.scene, m.plan).working;
+  fmt::print("  {:<34} {:>12}       {:>10.2f} MiB, and more where cracks grow\n", "at its peak, as it sorts and writes",
+             "", (static_cast<double>(total) + working) / (1 << 20));
 }
 
 template <class Real>

@@ -34,6 +34,7 @@ const std::vector<Toggle>& toggles() {
       {"body force", {"body_force.x=0 m/s^2"}, {"body_force="}},
       {"grid damping", {"damping.grid=0 1/s"}, {"damping.grid="}},
       {"particle damping", {"damping.particle=0 1/s"}, {"damping.particle="}},
+      {"gradients of velocity", {"solver.affine=true"}, {"solver.affine=false"}},
       {"higher orders", {"solver.transfer=fmpm", "solver.order=2"}, {"solver.order=1"}},
       {"second stress update", {"solver.stress_update=usavg"}, {"solver.stress_update=musl"}},
       {"second extrapolation", {"solver.stress_update=musl"}, {"solver.stress_update=usl"}}};

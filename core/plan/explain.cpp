@@ -96,6 +96,7 @@ std::vector<EffectNote> explain(const Scene& s, const Plan& p) {
       {"body force", p.body_force, p.body_force ? "[body_force]" : "no [body_force]"},
       {"grid damping", p.grid_damping, p.grid_damping ? "damping.grid" : "no damping.grid"},
       {"particle damping", p.particle_damping, p.particle_damping ? "damping.particle" : "no damping.particle"},
+      {"gradients of velocity", p.affine, said("solver.affine", p.affine ? "true" : "false")},
       {"higher orders", p.higher_order() && p.order > 1, why_orders(s, p)},
       {"watched energy", p.watch_energy, p.watch_energy ? "solver.cfl is beyond 1" : "solver.cfl is at most 1"},
       {"second stress update", p.averaged(), update},

@@ -119,7 +119,7 @@ std::vector<std::string> Plan::effects() const {
   say(body_force, "body force");
   say(grid_damping, "grid damping");
   say(particle_damping, "particle damping");
-  say(affine, "affine");
+  say(affine, "gradients of velocity");
   say(higher_order() && order > 1, "higher orders");
   say(watch_energy, "watched energy");
   return names;

@@ -113,6 +113,7 @@ const EffectCase effects[] = {
     {"body force", "body force", plain, [](Scene& s) { s.body_force[0] = constant(1); }, {}},
     {"grid damping", "grid damping", plain, [](Scene& s) { s.grid_damping = constant(1); }, {}},
     {"particle damping", "particle damping", plain, [](Scene& s) { s.particle_damping = constant(1); }, {}},
+    {"gradients of velocity", "", plain, [](Scene& s) { s.affine = true; }, {"particles: velocity gradient"}},
     {"higher orders",
      "higher orders",
      plain,
@@ -181,7 +182,7 @@ TEST_P(Effects, HaveNoTaskAndNoArrayWhereTheyAreNotAsked) {
       EXPECT_TRUE(tasks(b).contains(c.task));
     }
     const auto extent = [](const Simulation& m) {
-      return m.tasks.size() + m.plan.keeps_F() + m.plan.first_positions() + m.plan.first_gaps;
+      return m.tasks.size() + m.plan.keeps_F() + m.plan.first_positions() + m.plan.first_gaps + m.plan.affine;
     };
     EXPECT_GT(extent(b), extent(a));
     for (const std::string& name : c.arrays) {
