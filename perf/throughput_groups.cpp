@@ -34,6 +34,12 @@ std::vector<Entrant> methods() {
           transferred("fmpm(2)", Transfer::fmpm, 2),
           transferred("fmpm(4)", Transfer::fmpm, 4),
           transferred("xpic(2)", Transfer::xpic, 2),
+          swirling("affine", cells, [](Scene& s) { s.affine = true; }),
+          swirling("affine, usavg", cells,
+                   [](Scene& s) {
+                     s.affine = true;
+                     s.stress_update = StressUpdate::usavg;
+                   }),
           swirling("linear, musl", cells,
                    [](Scene& s) {
                      // USL divides by the tiny masses of nodes at the free edge and turns a particle inside out
