@@ -59,8 +59,8 @@ void run(const exec::Space& space, const Plan& plan, State<Real, 2>& s, Vec2 gra
                               auto [B, C] = MomentumSlope<Affine, Real>(slopes, m[k], first + k);
                               if constexpr (Forces) {
                                 A = Quad<Real>{px[k], py[k], m[k] * bx, m[k] * by};
-                                B += Quad<Real>{Real(0), Real(0), txx[k], txy[k]};
-                                C += Quad<Real>{Real(0), Real(0), txy[k], tyy[k]};
+                                B = Quad<Real>{B[0], B[1], txx[k], txy[k]};
+                                C = Quad<Real>{C[0], C[1], txy[k], tyy[k]};
                               }
                               if constexpr (std::is_pointer_v<decltype(slots)>)
                                 scatter_slots<Forces, Forces || Affine, second>(w, k, m[k], A, B, C, to, slots, extra,

@@ -143,7 +143,7 @@ Dense dense(const Simulation& sim, ShapeFunction shape) {
         D[1] += b.s[k] * std::pow(l.origin.y + (b.base + k) * l.h - p.x[1][i], 2);
       }
       for (int axis = 0; sim.plan.affine && axis < 2; ++axis)
-        d.M[static_cast<size_t>(id + (1 + axis) * n)] = p.mass[i] * D[axis];
+        d.M[static_cast<size_t>(id) + static_cast<size_t>(1 + axis) * static_cast<size_t>(n)] = p.mass[i] * D[axis];
       for (int j = 0; j < Shape::width; ++j)
         for (int k = 0; k < Shape::width; ++k) {
           const int node = (b.base + j) * l.nx + a.base + k;
