@@ -18,11 +18,6 @@ namespace {
 
 /// Points that one task takes.
 constexpr long points_of_task = 32;
-/// Of the mass of a full cell, what a surface must see to bear anything. Along a face it sees half of it, at a corner a
-/// quarter, half a cell off the solid this much. What lies farther off, as where a crack has cut a body whose parts
-/// draw apart, would set next to no mass in motion with more energy than the whole body has.
-constexpr double least_seen = 0.05;
-
 /// A place on a crack with its surfaces.
 struct FacePlace {
   CrackPoint at;
@@ -93,13 +88,6 @@ RIVEN_FN bool spread(const Extrapolation<Shape, Real>& from, const FacePlace& pl
   return found[0] && found[1];
 }
 
-/// kg, of a full cell of the lightest body.
-template <class Real>
-double cell_mass(const State<Real, 2>& s) {
-  const double h = s.grid.lattice.h;
-  return h * h / *std::max_element(s.specific_area.begin(), s.specific_area.end());
-}
-
 }  // namespace
 
 template <class Shape, class Real>
@@ -108,7 +96,7 @@ void apply_tractions(const exec::Space& space, ScatterKind kind, State<Real, 2>&
   const Extrapolation<Shape, Real> from(s.grid, false, s.cracks, s.fields, s.clock.dt);
   const CrackView cracks = crack_view(s.cracks);
   const long points = cracks.points;
-  const double least = mass_cutoff(s), seen = least_seen * cell_mass(s);
+  const double least = mass_cutoff(s), seen = least_mass_borne(s);
   forces.resize(2 * points);
   const FaceForce* on_face = exec::data(on_faces);
   PointForces* const to = exec::data_to_fill(forces);

@@ -87,13 +87,11 @@ struct NodeSums {
     });
   }
 
-  template <class Shape>
-  RIVEN_FN RIVEN_ONCE void sum_as(const NodeCracks& n) const {
-    const Vec2 node = lattice.position(n.node);
+  /// f(particle, field, S) for all particles that node n has a weight S on.
+  template <class Shape, class F>
+  RIVEN_INLINE void each_particle_of(const NodeCracks& n, const F& f) const {
     const int I = n.node % lattice.nx, K = n.node / lattice.nx;
     prefetch_around<Shape>(I, K);
-    Quad<double> places[1 << most_held]{};
-    double areas[1 << most_held]{};
     Block<Real, Shape> w;
     each_stretch_around<Shape>(I, K, [&](int first, int last) RIVEN_LANE {
       for (; first < last; first += exec::lanes) {
@@ -102,15 +100,22 @@ struct NodeSums {
           const int p = first + k, a = I - w.ix[k], b = K - w.iy[k];
           if (static_cast<unsigned>(a) >= Shape::width || static_cast<unsigned>(b) >= Shape::width)
             continue;
-          const double S = double(w.sx[a][k]) * double(w.sy[b][k]);
-          const int field = CrackFields::field_of(fields[p], b * Shape::width + a);
-          if (place)
-            places[field] +=
-                (mass[p] * S) * Quad<double>{at.x[p] - node.x, at.y[p] - node.y, X[p] - node.x, Y[p] - node.y};
-          if (volume)
-            areas[field] += mass[p] * specific_area[body[p]] * area_ratio(p) * S;
+          f(p, CrackFields::field_of(fields[p], b * Shape::width + a), double(w.sx[a][k]) * double(w.sy[b][k]));
         }
       }
+    });
+  }
+
+  template <class Shape>
+  RIVEN_FN RIVEN_ONCE void sum_as(const NodeCracks& n) const {
+    const Vec2 node = lattice.position(n.node);
+    Quad<double> places[1 << most_held]{};
+    double areas[1 << most_held]{};
+    each_particle_of<Shape>(n, [&](int p, int field, double S) RIVEN_LANE {
+      if (place)
+        places[field] += (mass[p] * S) * Quad<double>{at.x[p] - node.x, at.y[p] - node.y, X[p] - node.x, Y[p] - node.y};
+      if (volume)
+        areas[field] += mass[p] * specific_area[body[p]] * area_ratio(p) * S;
     });
     for (int f = 0; f < n.fields(); ++f) {
       const long slot = f == 0 ? n.node : long{lattice.nodes()} + n.extra + f - 1;

@@ -130,7 +130,7 @@ void sort_particles(const exec::Space& space, const Plan& plan, State<Real, 2>& 
   exec::parallel_for(space, "sort particles: tiles", tiles + 1,
                      [to = exec::data_to_fill(p.tiles.start), from = exec::data(std::as_const(start))] RIVEN_KERNEL(
                          long t) { to[t] = from[t * cells_per_tile]; });
-  if (plan.contact || plan.fracture)
+  if (plan.contact || plan.anchors())
     p.tiles.cell_start.swap(start);
 
   std::tuple<exec::Array<double>, exec::Array<float>, exec::Array<int>, exec::Array<std::uint8_t>> spare;

@@ -5,6 +5,7 @@
 #include "core/exec/parallel.hpp"
 #include "core/scene/schedule.hpp"
 #include "kernels/advance_grid.hpp"
+#include "kernels/anchor_cracks.hpp"
 #include "kernels/apply_loads.hpp"
 #include "kernels/bridge_step.hpp"
 #include "kernels/contact_step.hpp"
@@ -115,6 +116,9 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(true, "clear grid", "", [before](Simulation& m) { clear_grid(m.space, m.state, !before); });
   add(true, "particle to grid", "",
       [before](Simulation& m) { particle_to_grid(m.space, m.plan, m.state, !before, m.gravity()); });
+  add(p.anchors(), "anchor cracks", "cracks", [](Simulation& m) { anchor_cracks(m.space, m.plan.shape, m.state); });
+  if (p.anchors())
+    list.back().due = [](const Simulation& m) { return anchors_due(m.state); };
   add_impulses("forget impulses", [](Simulation& m) { clear_impulses(m.state.fields, m.impulses); });
   add_contact(p.needs_contact_sums(), "contact sums", "contact", sum_for_contact<Real>);
   add(p.constraints, "boundary before", "boundary", [](Simulation& m) {

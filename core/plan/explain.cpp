@@ -106,7 +106,8 @@ std::vector<EffectNote> explain(const Scene& s, const Plan& p) {
        : p.fracture ? "J needs displacement gradients"
                     : "a law needs it"},
       {"first positions", p.first_positions(),
-       p.first_positions() ? "contact by displacement, growth or a probe needs them" : "nothing needs them"}};
+       p.first_positions() ? "contact by displacement, J, a law beside cracks or a probe needs them"
+                           : "nothing needs them"}};
   std::stable_partition(notes.begin(), notes.end(), [](const EffectNote& n) { return n.on; });
   return notes;
 }

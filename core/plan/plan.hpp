@@ -65,7 +65,9 @@ struct Plan {
   bool keeps_F() const { return law != LawChoice::linear_elastic; }
   bool keeps_J() const { return law == LawChoice::linear_elastic; }
   bool needs_contact_sums() const { return contact_volume || contact_position || contact_area; }
-  bool first_positions() const { return contact_position || displacement_probe || growth; }
+  /// Faces are held to the particles beside them (anchor_cracks.hpp), which tells who knows their stretch.
+  bool anchors() const { return cracks && keeps_F(); }
+  bool first_positions() const { return contact_position || displacement_probe || anchors(); }
   bool displacement_probe = false;
 
   std::vector<std::string> effects() const;  ///< names of what is on, for the header and summary.json

@@ -35,7 +35,7 @@ double bytes_of_node(const Plan& p, double real) {
   double bytes = real * (1 + 4 * vectors + (p.full_mass() ? full_mass_entries : 0));
   if (p.constraints)
     bytes += sizeof(int);
-  if (p.contact || p.fracture)
+  if (p.contact || p.anchors())
     bytes += sizeof(int);
   if (p.contact_position)
     bytes += sizeof(double);

@@ -75,7 +75,11 @@ const EffectCase effects[] = {
        s.bodies[1].region = Rectangle{{0, 0.7}, {1, 1.2}};
      },
      {"particles: closed position"}},
-    {"J", "J", cracked, [](Scene& s) { s = with_tips(); }, {"particles: deformation gradient"}},
+    {"J",
+     "J",
+     cracked,
+     [](Scene& s) { s = with_tips(); },
+     {"particles: deformation gradient", "particles: first position"}},
     {"growth",
      "growth",
      with_tips,
@@ -83,7 +87,7 @@ const EffectCase effects[] = {
        s.growth = GrowthRule{};
        s.growth->toughness = 1e9;
      },
-     {"particles: first position"}},
+     {}},
     {"tractions",
      "tractions",
      cracked,
