@@ -15,9 +15,9 @@ inline namespace RIVEN_SIDE {
 namespace {
 
 /// Of that by which their ways differ, what surfaces go at once: most of it over some four sorts, a cell or more.
-constexpr double share = 0.25;
+constexpr double way_at_once = 0.25;
 
-constexpr long points_of_task = 16, nodes_of_task = 16;
+constexpr long points_of_anchor = 16, nodes_of_anchor = 16;
 
 /// Where the particles of a node's field are as a function of where they were: sums of m S times each.
 struct FieldMap {
@@ -39,7 +39,7 @@ struct FieldMap {
 };
 
 /// Where field `field` of CrackFields::nodes[f] = n stands in a list of all fields of those nodes.
-RIVEN_INLINE long place_of(long f, const NodeCracks& n, int field) {
+RIVEN_INLINE long place_in_maps(long f, const NodeCracks& n, int field) {
   return f + n.extra + field;
 }
 
@@ -48,7 +48,7 @@ exec::Array<FieldMap> map_fields(const exec::Space& space, ShapeFunction shape, 
   ContactSums none;
   const ContactParticles<Real> of{shape, s.particles, s.domains, s.specific_area, s.watch.drift};
   exec::Array<FieldMap> maps(s.fields.nodes.size() + s.fields.extra_slots);
-  exec::launch_some(space, s.fields.nodes.size(), nodes_of_task,
+  exec::launch_some(space, s.fields.nodes.size(), nodes_of_anchor,
                     [nodes = exec::data(s.fields.nodes), sums = node_sums(of, s.grid.lattice, s.fields, none),
                      to = exec::data_to_fill(maps)] RIVEN_KERNEL(long f) {
                       const NodeCracks& n = nodes[f];
@@ -60,7 +60,7 @@ exec::Array<FieldMap> map_fields(const exec::Space& space, ShapeFunction shape, 
                                          {sums.F[0][p], sums.F[1][p], sums.F[2][p], sums.F[3][p]});
                       });
                       for (int field = 0; field < n.room(); ++field)
-                        to[place_of(f, n, field)] = found[field];
+                        to[place_in_maps(f, n, field)] = found[field];
                     });
   return maps;
 }
@@ -105,7 +105,7 @@ struct WaysBack {
     if (f < 0 || slot < 0)
       return nullptr;
     const NodeCracks& n = from.view.nodes[f];
-    return maps + place_of(f, n, slot == node ? 0 : slot - from.view.lattice.nodes() - n.extra + 1);
+    return maps + place_in_maps(f, n, slot == node ? 0 : slot - from.view.lattice.nodes() - n.extra + 1);
   }
 };
 
@@ -117,9 +117,9 @@ exec::Array<WayBack> find_ways(const exec::Space& space, const State<Real, 2>& s
                                    exec::data(maps),
                                    least_mass_borne(s)};
   exec::Array<WayBack> found(2 * s.cracks.points());
-  exec::launch_some(space, s.cracks.points(), points_of_task, [=, to = exec::data_to_fill(found)] RIVEN_KERNEL(long k) {
-    ways.find(static_cast<int>(k), to + 2 * k);
-  });
+  exec::launch_some(
+      space, s.cracks.points(), points_of_anchor,
+      [=, to = exec::data_to_fill(found)] RIVEN_KERNEL(long k) { ways.find(static_cast<int>(k), to + 2 * k); });
   return found;
 }
 
@@ -130,7 +130,7 @@ void anchor_cracks(const exec::Space& space, ShapeFunction shape, State<Real, 2>
   with_shape(shape, [&](auto type) {
     using Shape = typename decltype(type)::type;
     const exec::Array<FieldMap> maps = map_fields<Shape>(space, shape, s);
-    return_surfaces(space, find_ways<Shape>(space, s, maps), share, s.cracks);
+    return_surfaces(space, find_ways<Shape>(space, s, maps), way_at_once, s.cracks);
   });
 }
 
