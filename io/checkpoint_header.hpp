@@ -9,7 +9,7 @@ namespace riven {
 inline constexpr std::size_t checkpoint_header_bytes = 512;
 
 /// Of what is stored, and how; another one cannot be read.
-inline constexpr int checkpoint_format = 16;
+inline constexpr int checkpoint_format = 17;
 
 /// Completes and syncs a file whose first bytes are free. `path` names it in messages. Throws Error (file).
 void seal_checkpoint(int descriptor, const std::filesystem::path& path);

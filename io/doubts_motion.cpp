@@ -1,6 +1,5 @@
-// How bodies move: faster than their waves, or so that they turn far.
+// How bodies move: faster than their waves, or so that they strain by their spin.
 #include <cmath>
-#include <numbers>
 
 #include "io/checks.hpp"
 #include "io/doubts.hpp"
@@ -21,20 +20,6 @@ void doubt_velocity(const Scene& s, const Body& b, std::vector<Doubt>& list) {
                     "look at the unit of velocity"});
 }
 
-/// Particles that lie askew to the grid strain a loaded body a little more wherever it turns to: with 2 x 2 in a cell K
-/// of a crack that a pressure holds open is 5 % too large after a quarter turn and 8 % after the next, with 3 x 3 it is
-/// 4 and 5 %; where its body is pulled 4 %.
-void doubt_cracks_that_turn(const Scene& s, const Body& b, std::vector<Doubt>& list) {
-  constexpr double far = 0.7;  // rad
-  const double turn = std::fabs(b.spin) * s.end_time;
-  if (!s.cracks.empty() && b.particles_per_cell < 3 && turn > far)
-    list.push_back(
-        {place(s, "body " + b.name),
-         fmt::format("it turns by {:.0f} degrees, and K of cracks under load grows by 4 to 5 % in a quarter turn",
-                     turn * 180 / std::numbers::pi),
-         "try particles_per_cell = 3"});
-}
-
 /// At a border nodes have the velocity of particles within the body, so that one that spins strains there. Where stress
 /// comes last the grid gives way at once; velocities extrapolated from particles do not. A disk with a radius of 40
 /// cells whose rim moves at 0.013 of its wave speed has by FLIP 1.5 times its strain energy more in each 11 degrees of
@@ -52,7 +37,6 @@ void doubt_border_of_spin(const Scene& s, const Body& b, std::vector<Doubt>& lis
 void doubt_motion(const Scene& s, std::vector<Doubt>& list) {
   for (const Body& b : s.bodies) {
     doubt_velocity(s, b, list);
-    doubt_cracks_that_turn(s, b, list);
     doubt_border_of_spin(s, b, list);
   }
 }

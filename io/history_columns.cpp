@@ -11,8 +11,9 @@ namespace {
 /// The quantities of all runs that there may be.
 std::vector<HistoryColumn> all_quantities() {
   Plan plan{};
-  plan.cracks = plan.contact = plan.constraints = plan.tractions = true;
+  plan.cracks = plan.fracture = plan.contact = plan.constraints = plan.tractions = true;
   plan.transfer = Transfer::fmpm;
+  plan.law = LawChoice::any;
   std::vector<HistoryColumn> list = quantity_columns(plan);
   list.push_back(growth_column());
   return list;
@@ -47,6 +48,8 @@ std::vector<HistoryColumn> quantity_columns(const Plan& plan) {
     c.push_back({"capture", "J"});
   if (plan.transfer != Transfer::flip)
     c.push_back({"transfer", "J"});
+  if (plan.anchors_strains())
+    c.push_back({"anchoring", "J"});
   if (plan.tractions)
     c.insert(c.end(), {{"cohesive", "J"}, {"debonding", "J"}});
   return c;

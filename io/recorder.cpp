@@ -26,6 +26,8 @@ void Recorder<Real>::row() {
     v.push_back(e.capture);
   if (m_.plan.transfer != Transfer::flip)
     v.push_back(e.transfer);
+  if (m_.plan.anchors_strains())
+    v.push_back(e.anchoring);
   if (m_.plan.tractions)
     v.insert(v.end(), {e.cohesive, e.debonding});
   for (const ConstraintOwner& o : s.constraints.owners)

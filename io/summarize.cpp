@@ -76,8 +76,8 @@ Summary summarize(const SimulationOf<Real>& m, double wall_seconds) {
   out.effects = m.plan.effects();
   for (const TaskOf<Real>& t : m.tasks)
     out.tasks.push_back({t.label, t.effect, t.calls, t.seconds});
-  out.energy = {e.kinetic,   e.strain,  e.cohesive,    e.external_work, e.damping, e.contact,         e.fracture,
-                e.debonding, e.capture, e.numerical(), e.transfer,      e.largest, e.relative_error()};
+  out.energy = {e.kinetic,   e.strain,  e.cohesive,    e.external_work, e.damping,   e.contact, e.fracture,
+                e.debonding, e.capture, e.numerical(), e.transfer,      e.anchoring, e.largest, e.relative_error()};
   out.momentum_error = s.ledger.momentum.error();
   out.angular_momentum_error = s.ledger.momentum.angular_error();
   out.warnings = warnings(m);

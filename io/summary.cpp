@@ -93,19 +93,13 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
     return Json{{"label", t.label}, {"calls", t.calls}, {"seconds", number(t.seconds)}};
   });
   const Summary::Energy& e = s.energy;
-  j["energy"] = {{"kinetic", number(e.kinetic)},
-                 {"strain", number(e.strain)},
-                 {"cohesive", number(e.cohesive)},
-                 {"external_work", number(e.external_work)},
-                 {"damping", number(e.damping)},
-                 {"contact", number(e.contact)},
-                 {"fracture", number(e.fracture)},
-                 {"debonding", number(e.debonding)},
-                 {"capture", number(e.capture)},
-                 {"numerical", number(e.numerical)},
-                 {"transfer", number(e.transfer)},
-                 {"largest", number(e.largest)},
-                 {"relative_error", number(e.relative_error)}};
+  j["energy"] = {{"kinetic", number(e.kinetic)},   {"strain", number(e.strain)},
+                 {"cohesive", number(e.cohesive)}, {"external_work", number(e.external_work)},
+                 {"damping", number(e.damping)},   {"contact", number(e.contact)},
+                 {"fracture", number(e.fracture)}, {"debonding", number(e.debonding)},
+                 {"capture", number(e.capture)},   {"numerical", number(e.numerical)},
+                 {"transfer", number(e.transfer)}, {"anchoring", number(e.anchoring)},
+                 {"largest", number(e.largest)},   {"relative_error", number(e.relative_error)}};
   j["momentum_error"] = number(s.momentum_error);
   j["angular_momentum_error"] = number(s.angular_momentum_error);
   j["warnings"] = by_name(s.warnings, &Summary::Warning::kind, [](const Summary::Warning& w) {

@@ -25,8 +25,9 @@ struct Summary {
     double capture = 0;         ///< J, lost as bodies were caught by prescribed motion
     double numerical = 0;       ///< J, gained (+) or lost (-) by the scheme
     double transfer = 0;        ///< J, the part of that loss that PIC, XPIC and FMPM take
+    double anchoring = 0;       ///< J, the part of it that holding strains to where particles are takes
     double largest = 0;         ///< J, largest energy or work of the run
-    double relative_error = 0;  ///< numerical + transfer, what is left unexplained, over the largest
+    double relative_error = 0;  ///< numerical + transfer + anchoring, what is left unexplained, over the largest
   };
   struct Warning {
     std::string kind;

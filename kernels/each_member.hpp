@@ -61,6 +61,7 @@ void each_member(Energy& e, F&& f) {
   f("contact", e.contact);
   f("capture", e.capture);
   f("transfer", e.transfer);
+  f("anchoring", e.anchoring);
   f("fracture", e.fracture);
   f("debonding", e.debonding);
   f("first", e.first);

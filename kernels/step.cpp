@@ -6,6 +6,7 @@
 #include "core/scene/schedule.hpp"
 #include "kernels/advance_grid.hpp"
 #include "kernels/anchor_cracks.hpp"
+#include "kernels/anchor_strains.hpp"
 #include "kernels/apply_loads.hpp"
 #include "kernels/bridge_step.hpp"
 #include "kernels/contact_step.hpp"
@@ -113,6 +114,9 @@ std::vector<TaskOf<Real>> assemble_step(const Scene&, const Plan& p) {
   add(true, "sort particles", "", sort_if_due<Real>);
   add(p.cracks, "hash cracks", "cracks", hash_if_due<Real>);
   add(p.cracks, "determine fields", "cracks", find_fields<Real>);
+  add(p.anchors_strains(), "anchor strains", "J", [](Simulation& m) { anchor_strains(m.space, m.plan, m.state); });
+  if (p.anchors_strains())
+    list.back().due = [](const Simulation& m) { return anchors_due(m.state); };
   add(true, "clear grid", "", [before](Simulation& m) { clear_grid(m.space, m.state, !before); });
   add(true, "particle to grid", "",
       [before](Simulation& m) { particle_to_grid(m.space, m.plan, m.state, !before, m.gravity()); });

@@ -67,6 +67,8 @@ struct Plan {
   bool needs_contact_sums() const { return contact_volume || contact_position || contact_area; }
   /// Faces are held to the particles beside them (anchor_cracks.hpp), which tells who knows their stretch.
   bool anchors() const { return cracks && keeps_F(); }
+  /// So are strains (anchor_strains.hpp), where J asks for them.
+  bool anchors_strains() const { return fracture && anchors(); }
   bool first_positions() const { return contact_position || displacement_probe || anchors(); }
   bool displacement_probe = false;
 

@@ -17,20 +17,21 @@ struct Energy {
   /// Taken by the transfer from grid to particles: what PIC, XPIC and FMPM wear off waves of a few cells, contact's
   /// early impulses left out. FLIP takes none.
   double transfer = 0;
+  double anchoring = 0;  ///< taken as strains were held to where particles are (kernels/anchor_strains.hpp)
   double fracture = 0;   ///< released by crack growth, J times new area; see below
   double debonding = 0;  ///< taken by damage of cohesive laws
   double first = 0;      ///< total at the start
   double largest = 0;    ///< largest total, or work done, so far
 
   double total() const { return kinetic + strain + cohesive; }
-  /// Energy that the scheme made (> 0) or lost: the transfer's part, and what is left over. What a crack takes by
-  /// growing is in here as a loss, not on its own: a new segment changes no particle's energy. It lets go of the stress
-  /// across it, and that energy runs away as waves of a few cells, which the transfers then wear down as they do all
-  /// such waves, or keep. `fracture` tells how much of the loss is due to growth; where `transfer` is less, the rest is
-  /// still in waves.
+  /// Energy that the scheme made (> 0) or lost: the parts of the transfer and of anchoring, and what is left over. What
+  /// a crack takes by growing is in here as a loss, not on its own: a new segment changes no particle's energy. It lets
+  /// go of the stress across it, and that energy runs away as waves of a few cells, which the transfers then wear down
+  /// as they do all such waves, or keep. `fracture` tells how much of the loss is due to growth; where `transfer` is
+  /// less, the rest is still in waves.
   double numerical() const { return total() + damping + contact + capture + debonding - external_work - first; }
   /// The part of it that nothing accounts for.
-  double unaccounted() const { return numerical() + transfer; }
+  double unaccounted() const { return numerical() + transfer + anchoring; }
   /// What contact, which should take energy only, has given, beyond what the transfer has worn down: what it gives to
   /// short waves that are worn down again is no gain.
   double given_by_contact() const { return std::max(0., -contact - std::max(0., transfer)); }

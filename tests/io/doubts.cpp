@@ -85,17 +85,6 @@ TEST(Doubts, NameBodiesThatSpinAndStrainByThat) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
-TEST(Doubts, NameCracksThatTurnFarOnFewParticles) {
-  Scene s = sound_scene();
-  s.stress_update = StressUpdate::usl;
-  s.bodies[0].spin = 0.6 / s.end_time;
-  EXPECT_TRUE(doubts(s).empty());
-  s.bodies[0].spin = -0.8 / s.end_time;
-  expect_doubt(s, "body plate", "46 degrees");
-  s.bodies[0].particles_per_cell = 3;
-  EXPECT_TRUE(doubts(s).empty());
-}
-
 TEST(Doubts, NameInterfacesThatFmpmLetsGive) {
   Scene s = sound_scene();
   s.contact = {ContactLaw::interface, 0, 1e12, 1e12};
