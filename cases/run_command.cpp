@@ -100,7 +100,7 @@ void print_summary(const Summary& s, const std::filesystem::path& folder) {
   if (s.energy.transfer != 0)
     fmt::print("the transfer from grid to particles took {:.3g} % of the largest energy\n",
                100 * s.energy.transfer / s.energy.largest);
-  if (s.energy.anchoring != 0)
+  if (std::abs(s.energy.anchoring) > 1e-3 * s.energy.largest)
     fmt::print("holding strains to where particles are took {:.3g} % of the largest energy\n",
                100 * s.energy.anchoring / s.energy.largest);
   for (const Summary::Value& p : s.probes)

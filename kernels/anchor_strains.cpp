@@ -23,10 +23,11 @@ constexpr double strain_at_once = 0.25;
 /// Ways that differ by more than this, in cells, are not those of one solid.
 constexpr double not_one_solid = 0.1;
 
-/// Numbers at the nodes: [m d_x, m d_y, m, m times a mark] while they are summed, then [d_x d_y torn m], where torn is
-/// 0 if the node's particles were one solid; and [D_xx D_yx D_xy D_yy].
+/// Numbers at the nodes: [m d_x, m d_y, m, m times a mark] while they are summed, then [d_x d_y body m], the mean
+/// number of the particles' body, or `torn`; and [D_xx D_yx D_xy D_yy].
 struct NodeNumbers {
-  static constexpr int sum_mass = 2, sum_mark = 3, torn = 2, mass = 3;
+  static constexpr int sum_mass = 2, sum_mark = 3, body = 2, mass = 3;
+  static constexpr int torn = -1;  ///< some particles there were not one solid
 };
 
 /// Particles as this pass sees them.
@@ -39,6 +40,7 @@ struct FirstPlaces {
   RIVEN_INLINE Mat2<double> F(long i) const { return {p.Fxx[i], p.Fxy[i], p.Fyx[i], p.Fyy[i]}; }
   RIVEN_INLINE Vec2 place(long i) const { return {p.x[i], p.y[i]}; }
   RIVEN_INLINE Vec2 way(long i) const { return {X[i] - p.x[i], Y[i] - p.y[i]}; }
+  RIVEN_INLINE double body_of(long i) const { return body[i]; }
 };
 
 template <class Real>
@@ -62,18 +64,20 @@ struct NodeWays {
   struct Found {
     Vec2 d;
     Mat2<double> gradient{0, 0, 0, 0};
-    bool not_one = false;  ///< particles of some node were not one solid
+    bool other = false;  ///< some node has particles of another body, or is torn
   };
 
-  /// At particle k of a block, which is at x.
+  /// At particle p, the k-th of a block.
   template <class Shape, class Slots>
-  RIVEN_INLINE Found at(const Block<Real, Shape>& w, int k, Vec2 x, Slots slots) const {
+  RIVEN_INLINE Found at(const Block<Real, Shape>& w, int k, const FirstPlaces<Real>& of, long p, Slots slots) const {
     constexpr int N = Shape::width;
+    const Vec2 x = of.place(p);
+    const double body = of.body_of(p);
     Found all;
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < N; ++i) {
         long node = static_cast<long>(w.iy[k] + j) * lattice.nx + w.ix[k] + i;
-        const Vec2 r = x - lattice.position(static_cast<int>(node));
+        const Vec2 r = x - lattice.position(w.ix[k] + i, w.iy[k] + j);
         if constexpr (std::is_pointer_v<Slots>)
           node = slots[j * N + i];
         const Real *d = ways + 4 * node, *D = gradients + 4 * node;
@@ -84,7 +88,7 @@ struct NodeWays {
         all.gradient.yx += Gx * from_here.y + 0.5 * S * D[1];
         all.gradient.xy += Gy * from_here.x + 0.5 * S * D[2];
         all.gradient.yy += Gy * from_here.y + 0.5 * S * D[3];
-        all.not_one = all.not_one || (S > 0 && d[NodeNumbers::torn] > 0);
+        all.other = all.other || (S > 0 && std::fabs(d[NodeNumbers::body] - body) > 1e-3);
       }
     return all;
   }
@@ -104,7 +108,7 @@ struct OwnWays {
 
   template <class Shape, class Slots>
   RIVEN_INLINE PutWay put(const Block<Real, Shape>&, int, long i, Slots) const {
-    return {of.way(i), inverse_less_one(of.F(i)), double(of.body[i])};
+    return {of.way(i), inverse_less_one(of.F(i)), of.body_of(i)};
   }
 };
 
@@ -117,9 +121,9 @@ struct MissedWays {
 
   template <class Shape, class Slots>
   RIVEN_INLINE PutWay put(const Block<Real, Shape>& w, int k, long i, Slots slots) const {
-    const auto found = known.at(w, k, of.place(i), slots);
+    const auto found = known.at(w, k, of, i, slots);
     const Vec2 d = of.way(i) - found.d;
-    return {d, inverse_less_one(of.F(i)) + -1. * found.gradient, double(found.not_one || dot(d, d) > most * most)};
+    return {d, inverse_less_one(of.F(i)) + -1. * found.gradient, double(found.other || dot(d, d) > most * most)};
   }
 };
 
@@ -160,9 +164,9 @@ void sum_ways(const exec::Space& space, const Plan& plan, State<Real, 2>& s, con
           });
 }
 
-/// Adds the sums of ways to what the nodes know. A node is torn where its particles' marks differ; with `Rest`, where
-/// any is not 0.
-template <bool Rest, class Real>
+/// Adds the sums of ways to what the nodes know: the first sums, marked by bodies, or the second ones, marked where a
+/// particle was not one solid with the others.
+template <bool Again, class Real>
 void add_ways(const exec::Space& space, const State<Real, 2>& s, Real* ways) {
   exec::parallel_for(space, "anchor strains", s.grid.slots(), [ways, sums = exec::data(s.grid.q)] RIVEN_KERNEL(long n) {
     const Real *sum = sums + 4 * n, m = sum[NodeNumbers::sum_mass];
@@ -173,8 +177,8 @@ void add_ways(const exec::Space& space, const State<Real, 2>& s, Real* ways) {
     const double mark = double(sum[NodeNumbers::sum_mark]) / double(m);
     to[0] += sum[0] / m;
     to[1] += sum[1] / m;
-    if (Rest ? mark > 0 : std::fabs(mark - std::round(mark)) > 1e-4)
-      to[NodeNumbers::torn] = 1;
+    if (!Again || mark > 0)
+      to[NodeNumbers::body] = Again ? Real(NodeNumbers::torn) : Real(mark);
   });
 }
 
@@ -235,10 +239,10 @@ void pull_strains(const exec::Space& space, State<Real, 2>& s, const NodeWays<Re
                     ask_ahead(stretch, first);
                     w.template weigh<true>(at, first);
                     each_particle<Shape>(stretch, first, count, [&](int k, auto slots) RIVEN_LANE {
-                      const auto found = known.at(w, k, of.place(first + k), slots);
+                      const auto found = known.at(w, k, of, first + k, slots);
                       const Mat2<double>& D = found.gradient;
                       Mat2<double> change{0, 0, 0, 0};  // F_c F^-1 - I
-                      if (!found.not_one)
+                      if (!found.other)
                         change = inverse_less_one(of.F(first + k) * Mat2<double>{1 + D.xx, D.xy, D.yx, 1 + D.yy});
                       gradient.xx[k] = Real(change.xx);
                       gradient.xy[k] = Real(change.xy);
