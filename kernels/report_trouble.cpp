@@ -39,7 +39,7 @@ void particle_left_grid(const State<Real, 2>& s, long i) {
   stop(s, i, "a particle left the grid",
        fmt::format("velocity ({:.4g}, {:.4g}) m/s", s.particles.v[0][i], s.particles.v[1][i]),
        fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m", a.x, a.y, b.x, b.y),
-       std::string("if it flew there on purpose, a larger [grid]; if it was thrown out, ") + cures);
+       std::string("a larger [grid], if it flew there on purpose; ") + cures);
 }
 
 template <class Real>
