@@ -165,7 +165,7 @@ TEST(AnchorStrains, TakesThemToWhereParticlesAre) {
     const double taken = block.anchoring(), fallen = energy - block.strain_energy();
     EXPECT_GT(taken, 0);
     EXPECT_NEAR(taken, fallen, 1e-12 * energy);
-    for (int n = 1; n < 100; ++n)
+    for (int n = 1; n < 500; ++n)
       block.anchor();
     EXPECT_LT(block.off(of_two_sides), 0.1 * off) << static_cast<int>(shape);
     EXPECT_NEAR(block.anchoring(), energy - block.strain_energy(), 1e-11 * energy);
@@ -182,13 +182,13 @@ TEST(AnchorStrains, LeavesQuadraticMaps) {
     Block block(cut_block(shape, false, {20, 20}), bent);
     block.anchor();
     EXPECT_LT(block.off(bent, {{8, 10}, {12, 13}}), 1e-12) << static_cast<int>(shape);
-    EXPECT_LT(block.off(bent), 2e-3) << static_cast<int>(shape);
+    EXPECT_LT(block.off(bent), 5e-4) << static_cast<int>(shape);
   }
 }
 
 /// Of waves they take what falls with the square of the cell at least.
 TEST(AnchorStrains, LeavesWavesOfManyCells) {
-  double off[2];
+  double off[2] = {};
   for (const int fine : {0, 1}) {
     const double k = std::numbers::pi / (fine ? 8 : 4);  // waves of 8 and 16 cells
     const WayOf wave = [k](Vec2 x, int) {
@@ -203,7 +203,7 @@ TEST(AnchorStrains, LeavesWavesOfManyCells) {
   }
   RecordProperty("wave of 8 cells", std::to_string(off[0]));
   RecordProperty("wave of 16 cells", std::to_string(off[1]));
-  EXPECT_LT(off[0], 0.006);
+  EXPECT_LT(off[0], 0.0012);
   EXPECT_LT(off[1], off[0] / 4);
 }
 
