@@ -85,6 +85,25 @@ TEST(Doubts, NameBodiesThatSpinAndStrainByThat) {
   EXPECT_TRUE(doubts(s).empty());
 }
 
+TEST(Doubts, NameBodiesThatFlyOnGradients) {
+  Scene s = sound_scene();
+  s.affine = true;
+  s.bodies[0].velocity = {40 * s.cell / s.end_time, 0};
+  expect_doubt(s, "body plate", "it flies 40 cells");
+  s.stress_update = StressUpdate::usl;
+  EXPECT_TRUE(doubts(s).empty());
+  s.stress_update = StressUpdate::usavg;
+  s.transfer = Transfer::fmpm;
+  s.order = 1;
+  EXPECT_TRUE(doubts(s).empty());
+  s.transfer = Transfer::flip;
+  s.shape = ShapeFunction::bspline;
+  EXPECT_TRUE(doubts(s).empty());
+  s.shape = ShapeFunction::ugimp;
+  s.bodies[0].velocity = {20 * s.cell / s.end_time, 0};
+  EXPECT_TRUE(doubts(s).empty());
+}
+
 TEST(Doubts, NameInterfacesThatFmpmLetsGive) {
   Scene s = sound_scene();
   s.contact = {ContactLaw::interface, 0, 1e12, 1e12};
