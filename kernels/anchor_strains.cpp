@@ -17,8 +17,8 @@ namespace {
 
 /// How far F goes at once: most of the way over some twenty sorts, five to ten cells. By a quarter of the way K in a
 /// disk that turns comes 1 % nearer to that at rest. But where strains are steep, at tips, F then follows the places
-/// that particles have in their cells: energy is lost 1.6 times as fast, and what a running tip leaves behind bears 1.6
-/// % of the stress that it bore, instead of 0.8.
+/// that particles have in their cells: energy is lost 1.6 times as fast, and what a running tip leaves behind bears
+/// twice as much, 1.6 % of the stress that it bore.
 constexpr double strain_at_once = 0.05;
 
 /// Ways that differ by more than this, in cells, are not those of one solid.
